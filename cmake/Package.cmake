@@ -1,0 +1,26 @@
+# Install rules, and a package configuration for find_package(RW_segmentation) that serves the install tree and
+# the build tree alike.
+include(CMakePackageConfigHelpers)
+
+# Headers only: the same place on every architecture.
+set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/RW_segmentation)
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/RW_segmentation DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(TARGETS RW_segmentation EXPORT RW_segmentationTargets)
+install(EXPORT RW_segmentationTargets NAMESPACE RW_segmentation:: DESTINATION ${package_dir})
+export(EXPORT RW_segmentationTargets NAMESPACE RW_segmentation::
+  FILE ${PROJECT_BINARY_DIR}/RW_segmentationTargets.cmake)
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/RW_segmentationConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/RW_segmentationConfig.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+# Below 1.0 a new minor version may break the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/RW_segmentationConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES
+  ${PROJECT_BINARY_DIR}/RW_segmentationConfig.cmake ${PROJECT_BINARY_DIR}/RW_segmentationConfigVersion.cmake
+  DESTINATION ${package_dir})

@@ -1,0 +1,31 @@
+/// \concept WalkSolver
+///
+/// Solves the Dirichlet problem of a random walk on a `Dual_graph`: the potentials of all faces when some, the absorbing
+/// ones, are held at given values and current is conserved at all others.
+///
+/// A solver is default-constructible and movable. Its functions are called in the order below; each may be called
+/// again with other arguments. A solver that fails, or cannot promise its accuracy, throws `std::runtime_error` with the
+/// reason; it never returns a wrong answer. A face from which no absorbing face can be reached has the potential 0.
+///
+/// Models: `RW_segmentation::Star_mesh_elimination`, `RW_segmentation::Eigen_walk_solver`.
+class WalkSolver {
+ public:
+  /// Prepares for a graph: orderings and the like. The graph outlives the solver or the next `analyze`.
+  void analyze(const Dual_graph& graph);
+
+  /// Prepares for conductances, one an edge, finite and >= 0 (0 cuts the edge), and for the absorbing faces, all
+  /// different. May report to `progress` from 0 to 1.
+  void factorize(const std::vector<double>& conductances, const std::vector<Dual_graph::Index>& absorbing_faces,
+                 const Progress& progress);
+
+  /// The potentials of all faces (rows) for several right hand sides (columns): row r of `boundary_values` holds the
+  /// values of the r-th absorbing face. Values are from 0 to 1 or any others; potentials stay in their range.
+  void potentials(const Potentials& boundary_values, Potentials& potentials) const;
+
+  /// The potentials of all faces when a unit current enters at `face` and the absorbing faces are held at
+  /// `boundary_values`. Throws `std::invalid_argument` if the face absorbs or reaches no absorbing face.
+  void response(Dual_graph::Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const;
+
+  /// The probabilities that a walk from `face` ends at each absorbing face. Throws as `response`.
+  std::vector<double> absorbed_currents(Dual_graph::Index face) const;
+};
