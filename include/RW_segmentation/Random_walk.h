@@ -1,0 +1,246 @@
+#ifndef RW_SEGMENTATION_RANDOM_WALK_H
+#define RW_SEGMENTATION_RANDOM_WALK_H
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Star_mesh_elimination.h>
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/Edge_values.h>
+#include <RW_segmentation/internal/Graph_walk.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+/// The random walk on the faces of a mesh, as an object: seeds are added and removed, and the segments asked for
+/// again, at a fraction of the cost of the first answer (section 3 of the paper).
+///
+/// A walk at a face steps over an edge with a probability proportional to the edge's conductance (Eq. 1-2) and ends at
+/// the first seed it meets. A face belongs to the label whose seeds it most probably meets first (Eq. 3), the lowest
+/// one on a tie. Several seed faces may carry one label.
+///
+/// - Faces of a component that holds no seed (constrained edges cut components, too) become a segment of their own.
+/// - From three labels on, the faces of a label need not be connected. Faces cut off from the seeds of their label go to
+///   the neighbouring label with the largest potential along their border and are counted in `report()`;
+///   `write_raw_labels()` has them as they were.
+///
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`; it must outlive the walk and keep its faces and edges
+/// \tparam Solver a model of `WalkSolver`: `Star_mesh_elimination` (the default, exact for every range of conductances) or
+/// `Eigen_walk_solver<S>`
+///
+/// Cost: the first `segment()` orders and factorises (see the solver) and holds O(m + n) memory besides the factor for
+/// m faces and n seeds. The first answer after an edit keeps a column of 8 bytes a face for each seed face; from then
+/// on an added seed costs one pass over the factor and one over the columns, a removed seed one pass over the columns,
+/// a changed label nothing. An edit of more than 8 seed faces at once, or beyond 64 seed faces (strokes), is
+/// solved directly and keeps no columns. Potentials after edits are right to 1e-9; where digits would be lost the walk
+/// factorises anew by itself.
+template <class FaceListGraph, class Solver = Star_mesh_elimination>
+class Random_walk {
+ public:
+  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  using Label = std::size_t;
+
+  /// Reads the mesh and the conductances; solves nothing yet.
+  ///
+  /// \tparam ConductanceMap a model of `ReadablePropertyMap` with the mesh's edge descriptor as key and values that
+  /// convert to `double`: `Conductance`, a stored map, a lambda in `boost::function_property_map`. Read once for each
+  /// interior edge.
+  /// \param np named parameters, among them
+  /// - `callback`: `std::function<bool(double)>`, told the progress of a long solve; `false` ends it with `Cancelled`.
+  /// \throws std::invalid_argument if a conductance is negative or not finite
+  /// \throws std::length_error if the mesh has 2^32 - 1 faces or more
+  template <class ConductanceMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+  Random_walk(const FaceListGraph& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
+              const NamedParameters& np = CGAL::parameters::default_values())
+      : mesh_(&mesh),
+        graph_(std::make_unique<Mesh_dual_graph<FaceListGraph>>(mesh)),
+        walk_(*graph_, read_conductances(*graph_, conductance), std::move(solver), internal::progress_of(np)),
+        faces_at_start_(num_faces(mesh)),
+        edges_at_start_(num_edges(mesh)) {}
+
+  /// Whether it is a face of the mesh as it was when the walk was made.
+  bool has_face(face_descriptor face) const { return graph_->index(face) != Mesh_dual_graph<FaceListGraph>::none; }
+
+  /// Makes a face a seed, or gives a seed another label.
+  /// \throws std::invalid_argument if it is not a face of the mesh
+  void add_seed(face_descriptor face, Label label) { walk_.add_seed(index(face), label); }
+
+  /// Makes a face an ordinary one again.
+  /// \returns whether it was a seed
+  /// \throws std::invalid_argument if it is not a face of the mesh
+  bool remove_seed(face_descriptor face) { return walk_.remove_seed(index(face)); }
+
+  void clear_seeds() { walk_.clear_seeds(); }
+
+  /// The seeds and their labels in the order in which they were added.
+  std::vector<std::pair<face_descriptor, Label>> seeds() const {
+    std::vector<std::pair<face_descriptor, Label>> result;
+    for (const auto& seed : walk_.seeds()) result.emplace_back(graph_->face(seed.face), seed.label);
+    return result;
+  }
+
+  /// The label of a face that is a seed.
+  std::optional<Label> label_of_seed(face_descriptor face) const { return walk_.label_of_seed(index(face)); }
+
+  /// Writes the label of each face: the user's own labels, and the next unused ones for components without a seed.
+  ///
+  /// \tparam SegmentIdMap a model of `WritablePropertyMap` with the face descriptor as key and an integer as value
+  /// \returns the number of different labels written, 0 for a mesh without faces
+  /// \throws std::invalid_argument if there is no seed
+  /// \throws std::runtime_error if the mesh has changed since the walk was made, or the solver fails
+  /// \throws Cancelled if the callback ends the computation
+  /// Nothing is written when it throws.
+  template <class SegmentIdMap>
+  std::size_t segment(SegmentIdMap segment_ids) {
+    check_faces();
+    return write(walk_.labels(), segment_ids);
+  }
+
+  /// As `segment()`, but leaves faces that are cut off from the seeds of their label where the walk puts them.
+  template <class SegmentIdMap>
+  std::size_t write_raw_labels(SegmentIdMap segment_ids) {
+    check_faces();
+    return write(walk_.raw_labels(), segment_ids);
+  }
+
+  /// The probability that a walk from the face meets a seed of the label first; 0 for a label without seeds.
+  ///
+  /// The first call for a label after an edit solves for all faces and keeps the answer (8 bytes a face and label).
+  /// \throws as `segment()`, and std::invalid_argument if it is not a face of the mesh; of a changed mesh it notices
+  /// other numbers of faces or edges only
+  double probability(face_descriptor face, Label label) {
+    check_counts();
+    return walk_.potential(index(face), label);
+  }
+
+  /// Writes the probability of a label for all faces.
+  /// \tparam ProbabilityMap a model of `WritablePropertyMap` from the face descriptor to `double`
+  /// \throws as `segment()`
+  template <class ProbabilityMap>
+  void write_probabilities(Label label, ProbabilityMap probabilities) {
+    check_faces();
+    const std::vector<double> potential = walk_.potential(label);
+    for (std::size_t f = 0; f < potential.size(); ++f)
+      put(probabilities, graph_->face(static_cast<Dual_graph::Index>(f)), potential[f]);
+  }
+
+  /// What the last answer met that is odd but not wrong.
+  const Walk_report& report() const { return walk_.report(); }
+
+ private:
+  template <class ConductanceMap>
+  static std::vector<double> read_conductances(const Mesh_dual_graph<FaceListGraph>& graph,
+                                               const ConductanceMap& conductance) {
+    std::vector<double> values = internal::read_edge_values(graph, conductance, "the conductance");
+    for (const double value : values)
+      if (!std::isfinite(value)) throw internal::argument_error("a conductance", value, "finite");
+    return values;
+  }
+
+  Dual_graph::Index index(face_descriptor face) const {
+    if (!has_face(face)) throw std::invalid_argument("the seed is not a face of the mesh");
+    return graph_->index(face);
+  }
+
+  [[noreturn]] static void refuse_changed_mesh() {
+    throw std::runtime_error("the mesh has changed since the walk was made");
+  }
+
+  void check_counts() const {
+    if (num_faces(*mesh_) != faces_at_start_ || num_edges(*mesh_) != edges_at_start_) refuse_changed_mesh();
+  }
+
+  /// Compares the faces themselves, since some meshes go on counting those that have been removed.
+  void check_faces() const {
+    check_counts();
+    auto known = graph_->face_descriptors().begin();
+    const auto end = graph_->face_descriptors().end();
+    for (const face_descriptor face : faces(*mesh_))
+      if (known == end || *known++ != face) refuse_changed_mesh();
+    if (known != end) refuse_changed_mesh();
+  }
+
+  template <class SegmentIdMap>
+  std::size_t write(const std::vector<Label>& labels, SegmentIdMap segment_ids) const {
+    static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
+                  "segment_ids must be a writable property map from the mesh's face_descriptor to an integer.");
+    using Id = typename boost::property_traits<SegmentIdMap>::value_type;
+    std::map<Label, std::size_t> distinct;
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      if (f == 0 || labels[f] != labels[f - 1]) distinct[labels[f]] = f;
+      put(segment_ids, graph_->face(static_cast<Dual_graph::Index>(f)), static_cast<Id>(labels[f]));
+    }
+    return distinct.size();
+  }
+
+  const FaceListGraph* mesh_;
+  std::unique_ptr<const Mesh_dual_graph<FaceListGraph>> graph_;
+  internal::Graph_walk<Solver> walk_;
+  std::size_t faces_at_start_, edges_at_start_;
+};
+
+/// Segments a mesh by the walk from given seeds, once.
+///
+/// \tparam FaceListGraph, ConductanceMap, SegmentIdMap as for `Random_walk`
+/// \tparam SeedRange a range of face descriptors, whose places are their labels, or of pairs of a face descriptor and a
+/// label; several faces may share a label
+/// \param segment_ids output, contiguous ids from 0: the labels in ascending order, then the components without a seed.
+/// It may be the map that the seeds were taken from.
+/// \param np `callback` as for `Random_walk`
+/// \returns the number of segments
+/// \throws std::invalid_argument if there are no seeds, a seed is not a face of the mesh, or a face is given two labels
+/// \throws std::runtime_error if the solver fails
+/// \throws Cancelled
+/// Nothing is written when it throws.
+template <class Solver = Star_mesh_elimination, class FaceListGraph, class ConductanceMap, class SeedRange,
+          class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const ConductanceMap& conductance,
+                                    const SeedRange& seeds, SegmentIdMap segment_ids,
+                                    const NamedParameters& np = CGAL::parameters::default_values()) {
+  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  const auto labelled_face = [](const auto& seed, std::size_t place) {
+    if constexpr (std::is_convertible_v<decltype(seed), face_descriptor>)
+      return std::pair<face_descriptor, std::size_t>(seed, place);
+    else
+      return std::pair(face_descriptor(seed.first), seed.second);
+  };
+  using Labelled_face = decltype(labelled_face(*std::begin(seeds), 0));
+  using Label = typename Labelled_face::second_type;
+  std::vector<Labelled_face> labelled;
+  for (const auto& seed : seeds) labelled.push_back(labelled_face(seed, labelled.size()));
+  std::map<Label, std::size_t> id_of_label;
+  for (const auto& seed : labelled) id_of_label[seed.second] = 0;
+  std::size_t ids = 0;
+  for (auto& entry : id_of_label) entry.second = ids++;
+
+  Random_walk<FaceListGraph, Solver> walk(mesh, conductance, Solver(), np);
+  for (std::size_t s = 0; s < labelled.size(); ++s) {
+    const auto& [face, label] = labelled[s];
+    if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
+    if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
+      throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
+                                  " to a face that an earlier seed gives another label");
+    walk.add_seed(face, id_of_label[label]);
+  }
+  return walk.segment(segment_ids);
+}
+
+}  // namespace RW_segmentation
+
+#endif

@@ -1,0 +1,292 @@
+#ifndef RW_SEGMENTATION_INTERNAL_FRONT_KERNELS_H
+#define RW_SEGMENTATION_INTERNAL_FRONT_KERNELS_H
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+// The dense arithmetic of the star-mesh elimination, compiled for several instruction sets of which the running
+// machine's best is taken, so that a program built without -march=native still uses FMA and wide registers.
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__)
+#define RW_SEGMENTATION_X86_DISPATCH
+#define RW_SEGMENTATION_INLINE inline __attribute__((always_inline))
+#elif defined(__GNUC__) || defined(__clang__)
+#define RW_SEGMENTATION_INLINE inline __attribute__((always_inline))
+#else
+#define RW_SEGMENTATION_INLINE inline
+#endif
+
+namespace RW_segmentation::internal {
+
+/// One dense front: `pivots` columns to eliminate and `rows` more that stay, as conductances below the diagonal.
+struct Front {
+  std::size_t pivots, rows;
+  double* panel;                   ///< (pivots + rows) x pivots, column by column: conductances, later used up
+  double* remainder;               ///< rows x rows, column by column, lower triangle: what is left for the parent
+  const std::uint32_t* absorbing;  ///< by pivot: not 0 for a seed, whose column keeps its conductances
+  double* ground;                  ///< by row of the front: conductance to earlier seeds; null where there is none
+  double* sum;                     ///< out, by pivot: d_k
+  double* transition;              ///< out, packed columns below the diagonal: p_ki, or c_ki for a seed
+  double* scaled;                  ///< scratch, (pivots + rows) x block
+  double* packed;                  ///< scratch, see `packed_size`
+};
+
+constexpr std::size_t front_block = 32;  // pivots eliminated before the rest of the front is brought up to date
+
+namespace kernel {
+
+constexpr std::size_t tile_rows = 16, tile_columns = 4;
+
+/// Scratch for `add_outer_product`.
+constexpr std::size_t packed_size(std::size_t largest_front) {
+  return (largest_front + 2 * tile_rows) * front_block * 2;
+}
+
+/// z += a 16 x 4 tile of the product of packed strips a (depth x 16) and b (depth x 4).
+RW_SEGMENTATION_INLINE void multiply_tile(const double* a, const double* b, std::size_t depth,
+                                          double (&tile)[tile_columns][tile_rows]) {
+#if defined(__GNUC__) || defined(__clang__)
+  using Vector __attribute__((vector_size(64), aligned(8))) = double;
+  Vector c[tile_columns][2] = {};
+  for (std::size_t k = 0; k < depth; ++k, a += tile_rows, b += tile_columns) {
+    Vector low, high;
+    std::memcpy(&low, a, sizeof low);
+    std::memcpy(&high, a + 8, sizeof high);
+    for (std::size_t j = 0; j < tile_columns; ++j) {
+      c[j][0] += low * b[j];
+      c[j][1] += high * b[j];
+    }
+  }
+  std::memcpy(&tile, &c, sizeof c);
+#else
+  for (auto& column : tile) std::fill(std::begin(column), std::end(column), 0.);
+  for (std::size_t k = 0; k < depth; ++k, a += tile_rows, b += tile_columns)
+    for (std::size_t j = 0; j < tile_columns; ++j)
+      for (std::size_t i = 0; i < tile_rows; ++i) tile[j][i] += a[i] * b[j];
+#endif
+}
+
+/// z(i, j) += sum_k y(i, k) p(j, k) for j < columns, j <= i < rows; y and p have the same leading dimension.
+RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, const double* y, const double* p,
+                                              std::size_t stride, std::size_t rows, std::size_t columns,
+                                              std::size_t depth, double* packed) {
+  if (rows < 24 || depth < 4) {
+    for (std::size_t k = 0; k < depth; ++k, y += stride, p += stride)
+      for (std::size_t j = 0; j < columns; ++j) {
+        const double factor = p[j];
+        double* column = z + j * z_stride;
+        for (std::size_t i = j; i < rows; ++i) column[i] += y[i] * factor;
+      }
+    return;
+  }
+  double* const b = packed;
+  double* const a = packed + (columns + tile_columns) * depth;
+  for (std::size_t j = 0; j < columns; j += tile_columns)
+    for (std::size_t k = 0; k < depth; ++k)
+      for (std::size_t t = 0; t < tile_columns; ++t)
+        b[j * depth + k * tile_columns + t] = j + t < columns ? p[k * stride + j + t] : 0;
+  for (std::size_t i = 0; i < rows; i += tile_rows) {
+    const std::size_t height = std::min(tile_rows, rows - i);
+    for (std::size_t k = 0; k < depth; ++k)
+      for (std::size_t t = 0; t < tile_rows; ++t) a[k * tile_rows + t] = t < height ? y[k * stride + i + t] : 0;
+    const std::size_t last = std::min(columns, i + height);
+    for (std::size_t j = 0; j < last; j += tile_columns) {
+      double tile[tile_columns][tile_rows];
+      multiply_tile(a, b + j * depth, depth, tile);
+      const std::size_t width = std::min(tile_columns, last - j);
+      for (std::size_t t = 0; t < width; ++t) {
+        double* column = z + (j + t) * z_stride + i;
+        for (std::size_t s = i < j + t ? j + t - i : 0; s < height; ++s) column[s] += tile[t][s];
+      }
+    }
+  }
+}
+
+/// Star-mesh transforms of the pivots in turn. Only sums, products and quotients of non-negative numbers: no digit
+/// is ever cancelled.
+RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
+  const std::size_t pivots = front.pivots, rows = front.rows, size = pivots + rows;
+  double* transition = front.transition;
+  for (std::size_t begin = 0; begin < pivots; begin += front_block) {
+    const std::size_t end = std::min(pivots, begin + front_block);
+    for (std::size_t k = begin; k < end; ++k) {
+      const double* c = front.panel + k * size;
+      double* p = front.scaled + (k - begin) * size;
+      if (front.absorbing[k]) {
+        if (front.ground)
+          for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += c[i];
+        std::memcpy(transition, c + k + 1, (size - k - 1) * sizeof(double));
+        transition += size - k - 1;
+        std::fill(p + k + 1, p + size, 0.);
+        front.sum[k] = 0;
+        continue;
+      }
+      double d = front.ground ? front.ground[k] : 0;
+      for (std::size_t i = k + 1; i < size; ++i) d += c[i];
+      front.sum[k] = d;
+      if (d > 1e-290) {
+        const double inverse = 1 / d;
+        for (std::size_t i = k + 1; i < size; ++i) p[i] = c[i] * inverse;
+      } else {  // the reciprocal would overflow, or the pivot is cut off from everything left
+        for (std::size_t i = k + 1; i < size; ++i) p[i] = d > 0 ? c[i] / d : 0;
+      }
+      if (front.ground && front.ground[k] > 0)
+        for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += p[i] * front.ground[k];
+      std::memcpy(transition, p + k + 1, (size - k - 1) * sizeof(double));
+      transition += size - k - 1;
+      for (std::size_t j = k + 1; j < end; ++j) {
+        const double factor = p[j];
+        double* column = front.panel + j * size;
+        for (std::size_t i = j + 1; i < size; ++i) column[i] += c[i] * factor;
+      }
+    }
+    const double* y = front.panel + begin * size;
+    if (end < pivots)
+      add_outer_product(front.panel + end * size + end, size, y + end, front.scaled + end, size, size - end,
+                        pivots - end, end - begin, front.packed);
+    if (rows > 0)
+      add_outer_product(front.remainder, rows, y + pivots, front.scaled + pivots, size, rows, rows, end - begin,
+                        front.packed);
+  }
+}
+
+RW_SEGMENTATION_INLINE double dot_product(const double* a, const double* b, std::size_t length) {
+  // Eight sums: one would make each addition wait for the one before.
+  double sum[8] = {}, rest = 0;
+  std::size_t i = 0;
+  for (; i + 8 <= length; i += 8)
+    for (std::size_t t = 0; t < 8; ++t) sum[t] += a[i + t] * b[i + t];
+  for (; i < length; ++i) rest += a[i] * b[i];
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7])) + rest;
+}
+
+/// Back-substitution through one supernode for `labels` values a face: x_k = source_k + sum_i p_ki x_i, last pivot
+/// first. `x` holds (pivots + rows) x labels, pivots with their source terms; seeds keep what they hold.
+template <std::size_t labels>
+RW_SEGMENTATION_INLINE void substitute(const double* transition, std::size_t pivots, std::size_t rows,
+                                       const std::uint32_t* absorbing, double* x) {
+  const std::size_t size = pivots + rows;
+  const double* p = transition + pivots * (pivots - 1) / 2 + pivots * rows;  // behind the last column
+  for (std::size_t k = pivots; k-- > 0;) {
+    const std::size_t length = size - k - 1;
+    p -= length;
+    if (absorbing[k]) continue;
+    const double* below = x + (k + 1) * labels;
+    double* own = x + k * labels;
+    if constexpr (labels == 1) {
+      own[0] += dot_product(p, below, length);
+      continue;
+    }
+#if defined(__GNUC__) || defined(__clang__)
+    using Vector __attribute__((vector_size(labels * sizeof(double)), aligned(8))) = double;
+    Vector sum[4] = {};
+    std::size_t i = 0;
+    for (; i + 4 <= length; i += 4)
+      for (std::size_t t = 0; t < 4; ++t) {
+        Vector value;
+        std::memcpy(&value, below + (i + t) * labels, sizeof value);
+        sum[t] += value * p[i + t];
+      }
+    for (; i < length; ++i) {
+      Vector value;
+      std::memcpy(&value, below + i * labels, sizeof value);
+      sum[0] += value * p[i];
+    }
+    Vector total;
+    std::memcpy(&total, own, sizeof total);
+    total += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    std::memcpy(own, &total, sizeof total);
+#else
+    for (std::size_t i = 0; i < length; ++i)
+      for (std::size_t label = 0; label < labels; ++label) own[label] += p[i] * below[i * labels + label];
+#endif
+  }
+}
+
+/// Keeps the larger of two potentials and its rank, the earlier one on a tie, and adds to the total. Ranks are doubles so
+/// that one comparison selects both in wide registers.
+RW_SEGMENTATION_INLINE void select_largest(const double* potential, double rank, std::size_t count, double* largest,
+                                           double* best, double* total) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool larger = potential[i] > largest[i];
+    total[i] += potential[i];
+    best[i] = larger ? rank : best[i];
+    largest[i] = larger ? potential[i] : largest[i];
+  }
+}
+
+}  // namespace kernel
+
+enum class Instruction_set { portable, avx2, avx512 };
+
+inline Instruction_set best_instruction_set() {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  static const Instruction_set best = __builtin_cpu_supports("avx512f") ? Instruction_set::avx512
+                                      : __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
+                                          ? Instruction_set::avx2
+                                          : Instruction_set::portable;
+  return best;
+#else
+  return Instruction_set::portable;
+#endif
+}
+
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+__attribute__((target("avx2,fma"))) inline void eliminate_avx2(const Front& front) { kernel::eliminate(front); }
+__attribute__((target("avx512f,fma"))) inline void eliminate_avx512(const Front& front) { kernel::eliminate(front); }
+__attribute__((target("avx2"))) inline void select_largest_avx2(const double* potential, double rank, std::size_t count,
+                                                                double* largest, double* best, double* total) {
+  kernel::select_largest(potential, rank, count, largest, best, total);
+}
+__attribute__((target("avx512f"))) inline void select_largest_avx512(const double* potential, double rank,
+                                                                     std::size_t count, double* largest, double* best,
+                                                                     double* total) {
+  kernel::select_largest(potential, rank, count, largest, best, total);
+}
+template <std::size_t labels>
+__attribute__((target("avx2,fma"))) void substitute_avx2(const double* transition, std::size_t pivots, std::size_t rows,
+                                                         const std::uint32_t* absorbing, double* x) {
+  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+}
+template <std::size_t labels>
+__attribute__((target("avx512f,fma"))) void substitute_avx512(const double* transition, std::size_t pivots,
+                                                              std::size_t rows, const std::uint32_t* absorbing,
+                                                              double* x) {
+  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+}
+#endif
+
+inline void eliminate(const Front& front, Instruction_set set) {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  if (set == Instruction_set::avx512) return eliminate_avx512(front);
+  if (set == Instruction_set::avx2) return eliminate_avx2(front);
+#endif
+  static_cast<void>(set);
+  kernel::eliminate(front);
+}
+
+inline void select_largest(const double* potential, double rank, std::size_t count, double* largest, double* best,
+                           double* total, Instruction_set set) {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  if (set == Instruction_set::avx512) return select_largest_avx512(potential, rank, count, largest, best, total);
+  if (set == Instruction_set::avx2) return select_largest_avx2(potential, rank, count, largest, best, total);
+#endif
+  static_cast<void>(set);
+  kernel::select_largest(potential, rank, count, largest, best, total);
+}
+
+template <std::size_t labels>
+void substitute(const double* transition, std::size_t pivots, std::size_t rows, const std::uint32_t* absorbing,
+                double* x, Instruction_set set) {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  if (set == Instruction_set::avx512) return substitute_avx512<labels>(transition, pivots, rows, absorbing, x);
+  if (set == Instruction_set::avx2) return substitute_avx2<labels>(transition, pivots, rows, absorbing, x);
+#endif
+  static_cast<void>(set);
+  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif
