@@ -1,0 +1,26 @@
+#ifndef RW_SEGMENTATION_REGION_BOUNDARY_H
+#define RW_SEGMENTATION_REGION_BOUNDARY_H
+
+namespace RW_segmentation {
+
+/// Two sums over a set of mesh edges. Lengths are in units of R, the square root of the mesh's total area.
+struct Edge_sums {
+  double length = 0;      ///< L, the sum of the lengths |e|
+  double difference = 0;  ///< D, the sum of |e| d_e
+
+  Edge_sums& operator+=(const Edge_sums& other) {
+    length += other.length;
+    difference += other.difference;
+    return *this;
+  }
+};
+
+/// What a merge cost learns of the boundaries of two neighbouring regions. Border edges of the mesh belong to none.
+struct Region_boundary {
+  Edge_sums common;  ///< the edges between the two regions
+  Edge_sums whole;   ///< the edges round either region, those between the two counted once
+};
+
+}  // namespace RW_segmentation
+
+#endif
