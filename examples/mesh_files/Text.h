@@ -1,0 +1,181 @@
+#ifndef MESH_FILES_TEXT_H
+#define MESH_FILES_TEXT_H
+
+#include "Polygon_soup.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+namespace mesh_files {
+
+/// The word as it may be shown in an error message: short, and printable whatever the file holds.
+inline std::string printable(std::string_view word) {
+  constexpr std::size_t longest = 30;
+  std::string shown = "'";
+  for (const char c : word.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown + (word.size() > longest ? "...'" : "'");
+}
+
+/// "3 of 8 vertices" and the like.
+inline std::string count_of(std::uint64_t part, std::uint64_t whole, const std::string& what) {
+  return std::to_string(part) + " of " + std::to_string(whole) + " " + what;
+}
+
+/// Whether the word is `lower_case`, in whatever case.
+inline bool is_word(std::string_view word, std::string_view lower_case) {
+  return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; });
+}
+
+/// The number that a word spells, if it spells one: a `double`, which may be infinite or NaN, or an integer.
+template <class Number>
+std::optional<Number> number_in(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  Number value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    if constexpr (!std::is_floating_point_v<Number>) return std::nullopt;
+    // from_chars tells neither underflow from overflow nor their values.
+    value = static_cast<Number>(std::strtod(std::string(word).c_str(), nullptr));
+  }
+  return value;
+}
+
+/// A text read line by line and word by word, which knows its place when something is wrong.
+///
+/// Lines end with LF, CR LF or CR. Blank lines and what follows a `#` are passed over.
+class Text {
+ public:
+  /// What a backslash at the end of a line means.
+  enum class Backslash { is_a_character, joins_lines };
+
+  Text(std::string path, std::string_view content, Backslash backslash = Backslash::is_a_character)
+      : path_(std::move(path)),
+        rest_(content),
+        newline_(content.find('\n') == std::string_view::npos ? '\r' : '\n'),
+        joins_lines_(backslash == Backslash::joins_lines) {}
+
+  /// Goes to the next line that has a word in it; false at the end of the text.
+  bool next_line() {
+    while (!rest_.empty()) {
+      number_of_line_ += lines_taken_;
+      lines_taken_ = 1;
+      line_ = take_line();
+      while (is_continued() && !rest_.empty()) {
+        const std::string_view more = take_line();
+        line_ = {line_.data(), static_cast<std::size_t>(more.data() + more.size() - line_.data())};
+        ++lines_taken_;
+      }
+      line_ = line_.substr(0, line_.find('#'));
+      skip_blanks();
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+
+  /// Goes to the line of the next item, of which the text should still hold some.
+  void next_item(std::uint64_t item, std::uint64_t number_of_items, const std::string& items) {
+    if (!next_line()) fail_at_end(count_of(item, number_of_items, items));
+  }
+
+  bool at_end_of_line() const { return line_.empty(); }
+
+  /// The next word of the line, empty at its end.
+  std::string_view word() {
+    const std::size_t size = std::min(line_.find_first_of(blanks), line_.size());
+    const std::string_view found = line_.substr(0, size);
+    line_.remove_prefix(size);
+    skip_blanks();
+    return found;
+  }
+
+  /// The next word as a number; `what` it is supposed to be names it in the error.
+  double number(const char* what) { return next_as<double>(what, "a number"); }
+
+  /// The next word as a whole number.
+  std::int64_t integer(const char* what) { return next_as<std::int64_t>(what, "a whole number"); }
+
+  /// The next word as a whole number >= 0.
+  std::uint64_t count(const char* what) {
+    const std::int64_t value = integer(what);
+    if (value < 0) fail(std::string(what) + " is negative: " + std::to_string(value));
+    return static_cast<std::uint64_t>(value);
+  }
+
+  /// The next three words as a point.
+  Polygon_soup::Point point() {
+    const double x = coordinate("the x coordinate"), y = coordinate("the y coordinate");
+    return {x, y, coordinate("the z coordinate")};
+  }
+
+  /// What follows the line.
+  std::string_view rest() const { return rest_; }
+
+  [[noreturn]] void fail(const std::string& cause) const { fail_at_line(number_of_line_, cause); }
+  [[noreturn]] void fail_at_line(std::size_t line, const std::string& cause) const {
+    throw Unreadable_file(path_ + ":" + std::to_string(line) + ": " + cause);
+  }
+  [[noreturn]] void fail_at_end(const std::string& what_there_is) const {
+    throw Unreadable_file(path_ + ":" + std::to_string(number_of_line_) + ": the file ends here, after " +
+                          what_there_is);
+  }
+
+  /// Counts from 1; 0 before the first line.
+  std::size_t number_of_line() const { return number_of_line_; }
+
+ private:
+  static constexpr std::string_view blanks = " \t\r\n\v\f\\";
+
+  std::string_view take_line() {
+    const std::size_t size = std::min(rest_.find(newline_), rest_.size());
+    const std::string_view line = rest_.substr(0, size);
+    rest_.remove_prefix(std::min(size + 1, rest_.size()));
+    return line;
+  }
+
+  bool is_continued() const {
+    if (!joins_lines_ || line_.find('#') != std::string_view::npos) return false;
+    const std::size_t last = line_.find_last_not_of(" \t\r");
+    return last != std::string_view::npos && line_[last] == '\\';
+  }
+
+  void skip_blanks() { line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size())); }
+
+  template <class Number>
+  Number next_as(const char* what, const char* kind) {
+    const std::string_view digits = word();
+    if (digits.empty()) fail(std::string(what) + " is missing");
+    const std::optional<Number> value = number_in<Number>(digits);
+    if (!value) fail(std::string(what) + " is " + printable(digits) + ", not " + kind);
+    return *value;
+  }
+
+  double coordinate(const char* what) {
+    const double value = number(what);
+    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
+    return value;
+  }
+
+  std::string path_;
+  std::string_view rest_;
+  std::string_view line_;
+  char newline_;
+  bool joins_lines_;
+  std::size_t number_of_line_ = 0;
+  std::size_t lines_taken_ = 1;
+};
+
+}  // namespace mesh_files
+
+#endif

@@ -1,0 +1,304 @@
+#ifndef MESH_FILES_READ_PLY_H
+#define MESH_FILES_READ_PLY_H
+
+#include "Polygon_soup.h"
+#include "Text.h"
+
+#include <boost/endian/conversion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mesh_files {
+namespace ply {
+
+enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+inline std::size_t size_of(Scalar type) {
+  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+/// What a property means to us.
+enum class Meaning { x, y, z, corners, other };
+
+struct Property {
+  std::string name;
+  Meaning meaning = Meaning::other;
+  Scalar type = Scalar::float32;
+  bool is_list = false;
+  Scalar type_of_size = Scalar::uint8;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t number = 0;
+  std::vector<Property> properties;
+};
+
+enum class Encoding { text, little_endian, big_endian };
+
+struct Header {
+  Encoding encoding = Encoding::text;
+  std::vector<Element> elements;
+};
+
+inline Scalar scalar_type(Text& text) {
+  constexpr std::array<std::array<const char*, 2>, 8> names = {{{"char", "int8"},
+                                                                {"uchar", "uint8"},
+                                                                {"short", "int16"},
+                                                                {"ushort", "uint16"},
+                                                                {"int", "int32"},
+                                                                {"uint", "uint32"},
+                                                                {"float", "float32"},
+                                                                {"double", "float64"}}};
+  const std::string_view word = text.word();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (word == names[i][0] || word == names[i][1]) return static_cast<Scalar>(i);
+  text.fail("no scalar type of PLY is called " + printable(word));
+}
+
+inline Meaning meaning_of(const Element& element, const Property& property) {
+  if (element.name == "vertex" && !property.is_list) {
+    if (property.name == "x") return Meaning::x;
+    if (property.name == "y") return Meaning::y;
+    if (property.name == "z") return Meaning::z;
+  }
+  if (element.name == "face" && property.is_list &&
+      (property.name == "vertex_indices" || property.name == "vertex_index"))
+    return Meaning::corners;
+  return Meaning::other;
+}
+
+inline Property read_property(Text& text, const Element& element) {
+  Property property;
+  const Text before = text;
+  property.is_list = text.word() == "list";
+  if (property.is_list)
+    property.type_of_size = scalar_type(text);
+  else
+    text = before;
+  property.type = scalar_type(text);
+  property.name = text.word();
+  property.meaning = meaning_of(element, property);
+  return property;
+}
+
+/// Reads the header up to and with the line "end_header".
+inline Header read_header(Text& text) {
+  Header header;
+  bool has_format = false;
+  text.next_line();  // "ply"
+  for (;;) {
+    if (!text.next_line()) text.fail_at_end("part of the header");
+    const std::string_view keyword = text.word();
+    if (keyword == "end_header") break;
+    if (keyword == "format") {
+      const std::string_view format = text.word();
+      has_format = true;
+      if (format == "ascii")
+        header.encoding = Encoding::text;
+      else if (format == "binary_little_endian")
+        header.encoding = Encoding::little_endian;
+      else if (format == "binary_big_endian")
+        header.encoding = Encoding::big_endian;
+      else
+        text.fail("no format of PLY is called " + printable(format));
+    } else if (keyword == "element") {
+      Element element;
+      element.name = text.word();
+      element.number = text.count("the number of elements");
+      header.elements.push_back(element);
+    } else if (keyword == "property") {
+      if (header.elements.empty()) text.fail("a property before the first element");
+      Element& element = header.elements.back();
+      const Property property = read_property(text, element);
+      for (const Property& other : element.properties)
+        if (other.meaning == property.meaning && property.meaning != Meaning::other)
+          text.fail("a second property " + printable(property.name));
+      element.properties.push_back(property);
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      text.fail("no line of a PLY header starts with " + printable(keyword));
+    }
+  }
+  if (!has_format) text.fail("the header has no line \"format\"");
+  return header;
+}
+
+inline const Element& element_called(const std::string& name, const Header& header, const Text& text) {
+  for (const Element& element : header.elements)
+    if (element.name == name) return element;
+  text.fail("the header has no element \"" + name + "\"");
+}
+
+inline void require(Meaning meaning, const char* name, const Element& element, const Text& text) {
+  for (const Property& property : element.properties)
+    if (property.meaning == meaning) return;
+  text.fail("element \"" + element.name + "\" has no property \"" + name + "\"");
+}
+
+/// Refuses a header without what a mesh needs, or that promises more than the file has room for.
+inline void check_header(const Header& header, const Text& text) {
+  const Element& vertices = element_called("vertex", header, text);
+  require(Meaning::x, "x", vertices, text);
+  require(Meaning::y, "y", vertices, text);
+  require(Meaning::z, "z", vertices, text);
+  const Element& faces = element_called("face", header, text);
+  if (faces.number > 0) require(Meaning::corners, "vertex_indices", faces, text);
+  for (const Element& element : header.elements) {
+    std::size_t smallest_size = 0;
+    for (const Property& property : element.properties)
+      smallest_size += header.encoding == Encoding::text ? 2
+                       : property.is_list                ? size_of(property.type_of_size)
+                                                         : size_of(property.type);
+    if (!element.properties.empty() && element.number > (text.rest().size() + 1) / smallest_size)
+      text.fail("the header promises " + std::to_string(element.number) + " elements \"" + element.name +
+                "\", more than the file has room for");
+  }
+}
+
+/// The values of a PLY file in text form, one element a line.
+class Text_values {
+ public:
+  explicit Text_values(Text& text) : text_(text) {}
+  void next_element(std::uint64_t number, const Element& element) {
+    text_.next_item(number, element.number, "elements \"" + element.name + "\"");
+  }
+  double next(Scalar) { return text_.number("a value"); }
+  [[noreturn]] void fail(const std::string& cause) const { text_.fail(cause); }
+
+ private:
+  Text& text_;
+};
+
+/// The values of a binary PLY file.
+template <boost::endian::order Order>
+class Binary_values {
+ public:
+  Binary_values(std::string path, std::string_view rest) : path_(std::move(path)), rest_(rest) {}
+
+  void next_element(std::uint64_t number, const Element& element) {
+    number_ = number;
+    element_ = &element;
+  }
+
+  double next(Scalar type) {
+    const std::size_t size = size_of(type);
+    if (size > rest_.size())
+      throw Unreadable_file(path_ + ": the file ends after " +
+                            count_of(number_, element_->number, "elements \"" + element_->name + "\""));
+    const auto* bytes = reinterpret_cast<const unsigned char*>(rest_.data());
+    rest_.remove_prefix(size);
+    switch (type) {
+      case Scalar::int8:
+        return load<std::int8_t>(bytes);
+      case Scalar::uint8:
+        return load<std::uint8_t>(bytes);
+      case Scalar::int16:
+        return load<std::int16_t>(bytes);
+      case Scalar::uint16:
+        return load<std::uint16_t>(bytes);
+      case Scalar::int32:
+        return load<std::int32_t>(bytes);
+      case Scalar::uint32:
+        return load<std::uint32_t>(bytes);
+      case Scalar::float32:
+        return load<float>(bytes);
+      case Scalar::float64:
+        return load<double>(bytes);
+    }
+    return 0;
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const {
+    throw Unreadable_file(path_ + ": " + element_->name + " " + std::to_string(number_) + ": " + cause);
+  }
+
+ private:
+  template <class Value>
+  static double load(const unsigned char* bytes) {
+    return static_cast<double>(boost::endian::endian_load<Value, sizeof(Value), Order>(bytes));
+  }
+
+  std::string path_;
+  std::string_view rest_;
+  std::uint64_t number_ = 0;
+  const Element* element_ = nullptr;
+};
+
+template <class Values>
+std::uint64_t whole_number(double value, Values& values, const char* what) {
+  if (!(value >= 0 && value <= double(std::numeric_limits<std::uint32_t>::max()) && value == std::floor(value)))
+    values.fail(std::string(what) + " is " + std::to_string(value));
+  return static_cast<std::uint64_t>(value);
+}
+
+template <class Values>
+void read_list(const Property& property, std::uint64_t number_of_vertices, Values& values, Polygon_soup& soup) {
+  const std::uint64_t size = whole_number(values.next(property.type_of_size), values, "the size of a list");
+  for (std::uint64_t i = 0; i < size; ++i) {
+    const double value = values.next(property.type);
+    if (property.meaning != Meaning::corners) continue;
+    const std::uint64_t corner = whole_number(value, values, "a corner of the face");
+    if (corner >= number_of_vertices)
+      values.fail("the face names vertex " + std::to_string(corner) + ", the file has " +
+                  std::to_string(number_of_vertices) + " (the first is vertex 0)");
+    soup.corners.push_back(static_cast<Polygon_soup::Index>(corner));
+  }
+  if (property.meaning == Meaning::corners) soup.end_face();
+}
+
+template <class Values>
+Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertices, Values values) {
+  Polygon_soup soup;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    if (element.name == "vertex") soup.points.reserve(element.number);
+    for (std::uint64_t number = 0; number < element.number; ++number) {
+      values.next_element(number, element);
+      std::array<double, 3> point = {0, 0, 0};
+      for (const Property& property : element.properties) {
+        if (property.is_list) {
+          read_list(property, number_of_vertices, values, soup);
+          continue;
+        }
+        const double value = values.next(property.type);
+        if (property.meaning == Meaning::other) continue;
+        if (!std::isfinite(value)) values.fail("the " + property.name + " coordinate is not finite");
+        point[static_cast<std::size_t>(property.meaning)] = value;
+      }
+      if (element.name == "vertex") soup.points.emplace_back(point[0], point[1], point[2]);
+    }
+  }
+  return soup;
+}
+
+}  // namespace ply
+
+/// Reads a PLY file, text or binary. Properties other than the points and the corners of the faces are passed over.
+inline Polygon_soup read_ply(const std::string& path, std::string_view content) {
+  Text text(path, content);
+  const ply::Header header = ply::read_header(text);
+  ply::check_header(header, text);
+  const std::uint64_t vertices = ply::element_called("vertex", header, text).number;
+  switch (header.encoding) {
+    case ply::Encoding::little_endian:
+      return ply::read_elements(header, vertices, ply::Binary_values<boost::endian::order::little>(path, text.rest()));
+    case ply::Encoding::big_endian:
+      return ply::read_elements(header, vertices, ply::Binary_values<boost::endian::order::big>(path, text.rest()));
+    case ply::Encoding::text:
+      break;
+  }
+  return ply::read_elements(header, vertices, ply::Text_values(text));
+}
+
+}  // namespace mesh_files
+
+#endif

@@ -1,0 +1,62 @@
+# CTest runs each example on a mesh of CGAL's data folder and looks at what it prints and writes.
+
+# example_test(<name> <program> [ARGUMENTS ...] [INPUT <lines>...] [PRINTS <regular expression>...] [WRITES <file>...])
+# The lines go to the program's standard input; its standard output must match every expression, and the files must
+# have been written.
+function(example_test name program)
+  cmake_parse_arguments(PARSE_ARGV 2 test "" "" "ARGUMENTS;INPUT;PRINTS;WRITES")
+  if(NOT TARGET ${program} OR NOT data_dir)
+    return()
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/tests/${name})
+  list(JOIN test_INPUT "\n" input)
+  file(CONFIGURE OUTPUT ${folder}/input.txt CONTENT "${input}\n" @ONLY)
+  add_test(NAME example.${name}
+    COMMAND ${CMAKE_COMMAND} "-DCOMMAND=$<TARGET_FILE:${program}>;${test_ARGUMENTS}" -DINPUT=${folder}/input.txt
+      "-DPRINTS=${test_PRINTS}" "-DWRITES=${test_WRITES}" -P ${CMAKE_CURRENT_SOURCE_DIR}/run_and_compare.cmake
+    WORKING_DIRECTORY ${folder})
+  set_tests_properties(example.${name} PROPERTIES LABELS example TIMEOUT 300)
+endfunction()
+
+set(meshes ${data_dir}/meshes)
+
+example_test(own_difference own_difference ARGUMENTS ${meshes}/cube-meshed.off
+  PRINTS "stored map: 288 288 288 288 288 288" "lambda: 288 288 288 288 288 288" "class: 288 288 288 288 288 288")
+
+# 2390 faces in two segments, which are the same whatever holds the mesh.
+foreach(program polyhedron openmesh)
+  example_test(${program} ${program} ARGUMENTS ${meshes}/hand.off
+    PRINTS "segment 0: 46 faces" "segment 1: 2344 faces")
+endforeach()
+
+# An ear, the head and the body of a bear. What is undone is as it was.
+example_test(interactive_seeds interactive_seeds ARGUMENTS ${meshes}/bear.off
+  INPUT "add 11763 0" "add 1483 1" "add 167 2" "add 11763 1" "undo" "remove 1483" "undo" "undo" "undo"
+  PRINTS "add 11763 0: 0=27648 " "add 1483 1: 0=962 1=26686 " "remove 1483: 0=[0-9]+ 2=[0-9]+ "
+    "\nundo: 0=962 1=6181 2=20505 .*\nundo: 0=962 1=6181 2=20505 .*\nundo: 0=962 1=26686 .*\nundo: 0=27648 ")
+
+# The parts of a bear: from a seed in each of them, and found by the tool.
+example_test(segment_mesh.seeds segment_mesh
+  ARGUMENTS ${meshes}/bear.off --seed 11763 --seed 11824 --seed 1483 --seed 8789 --seed 8748 --seed 9212 --seed 9211
+    --seed 167 --output segments.ply --output segments.off --labels segments.seg
+  PRINTS "\n    7 +[0-9]+ +[0-9.]+ %\n$"
+  WRITES segments.ply segments.off segments.seg)
+example_test(segment_mesh.automatic segment_mesh
+  ARGUMENTS ${meshes}/bear.off --output segments.ply --labels segments.seg --hierarchy hierarchy.json
+    --report report.json
+  PRINTS "\n    5 +[0-9]+ +[0-9.]+ %\n"
+  WRITES segments.ply segments.seg hierarchy.json report.json)
+example_test(segment_mesh.polygons segment_mesh
+  ARGUMENTS ${meshes}/P.off --segments 2 --output segments.ply
+  PRINTS "\n    1 +[0-9]+ +[0-9.]+ %\n$"
+  WRITES segments.ply)
+example_test(segment_mesh.stl segment_mesh
+  ARGUMENTS ${meshes}/pig.stl --labels segments.seg
+  PRINTS "\n   16 +[0-9]+ +[0-9.]+ %\n"
+  WRITES segments.seg)
+
+# The tool's own tests run the tool.
+if(TARGET test_segment_mesh_tool AND TARGET segment_mesh)
+  add_dependencies(test_segment_mesh_tool segment_mesh)
+  target_compile_definitions(test_segment_mesh_tool PRIVATE SEGMENT_MESH="$<TARGET_FILE:segment_mesh>")
+endif()
