@@ -1,0 +1,495 @@
+// How well segmentations agree with people's, on the meshes of the Princeton Segmentation Benchmark, and how long they
+// take. The data are not part of this package; --data names a folder with the benchmark's own layout:
+// data/off/N.off and data/seg/Benchmark/N/N_k.seg.
+
+// The maximum flow of CGAL 5.5.1 does not reset its flow between two cuts, which spoils the segmentations by SDF.
+#define CGAL_DO_NOT_USE_BOYKOV_KOLMOGOROV_MAXFLOW_SOFTWARE
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in Boost's maximum flow
+#endif
+
+#include "measurement.h"
+#include "segmentation_measures.h"
+
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/coarse_seeds.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/mesh_segmentation.h>
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#if __has_include(<CGAL/AABB_traits_3.h>)
+#include <CGAL/AABB_traits_3.h>
+template <class Kernel, class Primitive>
+using AABB_traits = CGAL::AABB_traits_3<Kernel, Primitive>;
+#else
+#include <CGAL/AABB_traits.h>
+template <class Kernel, class Primitive>
+using AABB_traits = CGAL::AABB_traits<Kernel, Primitive>;
+#endif
+
+using namespace RW_segmentation;
+using namespace measurement;
+using segmentation_measures::Overlaps;
+
+namespace {
+
+using Face = Mesh::Face_index;
+using Labels = std::vector<std::size_t>;  // in the order of the faces
+
+// ---- The benchmark's data ----
+
+struct Subject {
+  std::size_t number;         // 1 .. 400
+  Mesh mesh;                  // as it is segmented
+  std::vector<Face> nearest;  // face of `mesh` for each face that people labelled
+  std::vector<Labels> people;
+};
+
+/// The benchmark has 20 meshes in each category.
+std::string category_of(std::size_t number) {
+  static const std::vector<std::string> names = {
+      "Human", "Cup",  "Glasses", "Airplane", "Ant",       "Chair", "Octopus", "Table",   "Teddy", "Hand",
+      "Plier", "Fish", "Bird",    "Spring",   "Armadillo", "Bust",  "Mech",    "Bearing", "Vase",  "Fourleg"};
+  return number >= 1 && number <= 20 * names.size() ? names[(number - 1) / 20] : "others";
+}
+
+Labels read_labels(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  Labels labels;
+  for (std::size_t label = 0; file >> label;) labels.push_back(label);
+  if (!file.eof()) throw std::runtime_error(path.string() + ": not a label in each line");
+  return labels;
+}
+
+std::vector<Labels> read_people(const std::filesystem::path& folder, std::size_t faces) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".seg") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<Labels> people;
+  for (const auto& path : paths) {
+    people.push_back(read_labels(path));
+    if (people.back().size() != faces)
+      throw std::runtime_error(path.string() + ": " + std::to_string(people.back().size()) + " labels for " +
+                               std::to_string(faces) + " faces");
+  }
+  if (people.empty()) throw std::runtime_error(folder.string() + ": no segmentations by people");
+  return people;
+}
+
+std::vector<std::size_t> numbers_in_folder(const std::filesystem::path& folder) {
+  std::vector<std::size_t> numbers;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".off") numbers.push_back(std::stoul(entry.path().stem().string()));
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+std::vector<std::size_t> numbers_in_file(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 0; file >> number;) numbers.push_back(number);
+  if (numbers.empty()) throw std::runtime_error(path + ": no numbers of meshes");
+  return numbers;
+}
+
+// ---- Changes of the meshes that test robustness ----
+
+struct Changes {
+  double noise = 0;  // standard deviation of each coordinate, percent of the diagonal of the bounding box
+  double faces = 1;  // factor
+};
+
+void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  std::mt19937 random(static_cast<unsigned>(random_seed));
+  std::normal_distribution<double> noise(0, percent / 100 * diagonal);
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    const double x = noise(random), y = noise(random), z = noise(random);
+    mesh.point(v) = {p.x() + x, p.y() + y, p.z() + z};
+  }
+}
+
+/// The mesh with each face split in four, and the middle ones of these.
+std::pair<Mesh, std::vector<Face>> split_in_four(const Mesh& mesh) {
+  Mesh fine;
+  std::vector<Face> middle;
+  std::vector<Mesh::Vertex_index> corner, halving;
+  for (const auto v : mesh.vertices()) corner.push_back(fine.add_vertex(mesh.point(v)));
+  for (const auto e : mesh.edges())
+    halving.push_back(fine.add_vertex(CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
+  for (const auto f : mesh.faces()) {
+    const auto a = mesh.halfedge(f), b = mesh.next(a), c = mesh.next(b);
+    for (const auto& [in, out] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      fine.add_face(halving[mesh.edge(in)], corner[mesh.target(in)], halving[mesh.edge(out)]);
+    middle.push_back(fine.add_face(halving[mesh.edge(a)], halving[mesh.edge(b)], halving[mesh.edge(c)]));
+  }
+  return {std::move(fine), std::move(middle)};
+}
+
+/// Ends an edge collapse at a fraction of the edges. CGAL's own predicate changed its name between versions.
+struct Edge_ratio_stop {
+  double ratio;
+  template <class Cost, class Profile>
+  bool operator()(const Cost&, const Profile&, std::size_t initial, std::size_t current) const {
+    return static_cast<double>(current) <= ratio * static_cast<double>(initial);
+  }
+};
+
+/// The mesh with a fraction of its faces, and for each face of `mesh` the one closest to its centroid.
+std::pair<Mesh, std::vector<Face>> simplified(const Mesh& mesh, double ratio) {
+  Mesh coarse = mesh;
+  CGAL::Surface_mesh_simplification::edge_collapse(coarse, Edge_ratio_stop{ratio});
+  coarse.collect_garbage();
+
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
+  const CGAL::AABB_tree<AABB_traits<CGAL::Simple_cartesian<double>, Primitive>> tree(faces(coarse).begin(),
+                                                                                     faces(coarse).end(), coarse);
+  std::vector<Face> nearest;
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const auto centroid =
+        CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+    nearest.push_back(tree.closest_point_and_primitive(centroid).second);
+  }
+  return {std::move(coarse), std::move(nearest)};
+}
+
+Subject read_subject(const std::filesystem::path& data, std::size_t number, const Changes& changes) {
+  const std::string name = std::to_string(number);
+  Subject subject;
+  subject.number = number;
+  subject.mesh = read_mesh((data / "data" / "off" / (name + ".off")).string());
+  subject.people = read_people(data / "data" / "seg" / "Benchmark" / name, num_faces(subject.mesh));
+  if (changes.faces == 4)
+    std::tie(subject.mesh, subject.nearest) = split_in_four(subject.mesh);
+  else if (changes.faces < 1)
+    std::tie(subject.mesh, subject.nearest) = simplified(subject.mesh, changes.faces);
+  else
+    subject.nearest.assign(faces(subject.mesh).begin(), faces(subject.mesh).end());
+  if (changes.noise > 0) add_noise(subject.mesh, changes.noise, number);
+  return subject;
+}
+
+// ---- Methods ----
+
+struct Outcome_of_method {
+  Labels labels;  // by face of the mesh that was segmented
+  std::vector<Segmentation_report::Stage> stages;
+};
+using Method = std::function<Outcome_of_method(const Subject&)>;
+using Label_map =
+    boost::iterator_property_map<std::size_t*, boost::property_map<Mesh, boost::face_index_t>::const_type>;
+
+std::size_t number_of_segments(const Labels& labels) {
+  return std::set<std::size_t>(labels.begin(), labels.end()).size();
+}
+
+std::size_t typical_number_of_segments(const Subject& subject) {
+  std::vector<std::size_t> numbers;
+  for (const Labels& labels : subject.people) numbers.push_back(number_of_segments(labels));
+  return segmentation_measures::mode_nearest_median(numbers);
+}
+
+template <class Policy>
+Outcome_of_method by_walks(const Subject& subject, const Policy& policy) {
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(subject.mesh));
+  const Label_map labels(outcome.labels.data(), get(boost::face_index, subject.mesh));
+  const auto hierarchy = hierarchy_via_random_walks(subject.mesh, policy);
+  const std::size_t segments = policy.stop(hierarchy);
+  const std::size_t least = hierarchy.number_of_components(), most = hierarchy.number_of_fragments();
+  hierarchy.segments(Segment_count_stop(std::clamp(segments, least, most)), labels);
+  outcome.stages = hierarchy.report().stages;
+  return outcome;
+}
+
+/// Few seeds by Eq. 9, and the walk from them, with no merging. Seeds are told apart by convex edges, too; the walk heeds
+/// concave ones alone.
+Outcome_of_method by_coarse_seeds(const Subject& subject) {
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(subject.mesh));
+  auto stage = [&, watch = Stopwatch(), before = 0.](const char* name) mutable {
+    const double now = watch.milliseconds();
+    outcome.stages.push_back({name, (now - before) / 1000});
+    before = now;
+  };
+  const Mesh& mesh = subject.mesh;
+  std::vector<CGAL::Simple_cartesian<double>::Vector_3> vectors(num_faces(mesh));
+  const auto normals = boost::make_iterator_property_map(vectors.begin(), get(boost::face_index, mesh));
+  smoothed_face_normals(mesh, normals);
+  stage("normals");
+  const Dihedral_difference<Mesh> turn(mesh, normals, 0.5, Dihedral_measure::angle);
+  const Dihedral_difference<Mesh> concavity(mesh, normals, 0, Dihedral_measure::angle);
+  stage("difference");
+  std::vector<Face> seeds;
+  coarse_seeds(mesh, turn, Separation_threshold_stop(), std::back_inserter(seeds));
+  stage("seeds");
+  segmentation_from_seeds(mesh, Conductance<Mesh>(mesh, concavity), seeds,
+                          Label_map(outcome.labels.data(), get(boost::face_index, mesh)));
+  stage("walk");
+  return outcome;
+}
+
+/// CGAL's segmentation by shape diameters, with its own default parameters.
+Outcome_of_method by_shape_diameter(const Subject& subject) {
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(subject.mesh));
+  const auto index = get(boost::face_index, subject.mesh);
+  std::vector<double> values(num_faces(subject.mesh));
+  const auto value_map = boost::make_iterator_property_map(values.begin(), index);
+  Stopwatch diameters;
+  CGAL::sdf_values(subject.mesh, value_map);
+  outcome.stages.push_back({"diameters", diameters.milliseconds() / 1000});
+  Stopwatch cut;
+  CGAL::segmentation_from_sdf_values(subject.mesh, value_map, Label_map(outcome.labels.data(), index));
+  outcome.stages.push_back({"graph cut", cut.milliseconds() / 1000});
+  return outcome;
+}
+
+const std::vector<std::pair<std::string, Method>>& methods() {
+  static const std::vector<std::pair<std::string, Method>> all = {
+      {"automatic", [](const Subject& s) { return by_walks(s, Automatic_segmentation()); }},
+      {"count", [](const Subject& s) { return by_walks(s, Automatic_segmentation(typical_number_of_segments(s))); }},
+      {"paper", [](const Subject& s) { return by_walks(s, Paper_segmentation()); }},
+      {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
+      {"coarse", by_coarse_seeds},
+      {"sdf", by_shape_diameter},
+  };
+  return all;
+}
+
+// ---- Measures ----
+
+/// What a method reached on a mesh, averaged over the people who segmented it.
+struct Score {
+  std::size_t number = 0;
+  double error = 0, hamming = 0, global_consistency = 0, local_consistency = 0, segments = 0, milliseconds = 0;
+  std::vector<Segmentation_report::Stage> stages;
+
+  static constexpr std::array names = {"error", "hamming", "GCE", "LCE", "segments", "ms"};
+  std::array<double, names.size()> numbers() const {
+    return {error, hamming, global_consistency, local_consistency, segments, milliseconds};
+  }
+};
+
+void add_comparison(Score& score, const Labels& a, const Labels& b, double weight) {
+  const Overlaps overlaps(a, b);
+  score.error += weight * overlaps.rand_index_error();
+  score.hamming += weight * overlaps.hamming_distance();
+  score.global_consistency += weight * overlaps.global_consistency_error();
+  score.local_consistency += weight * overlaps.local_consistency_error();
+}
+
+Score score_of(const Subject& subject, const Method& method) {
+  Outcome_of_method outcome = method(subject);
+  Labels labels;
+  for (const Face f : subject.nearest) labels.push_back(outcome.labels[f]);
+  Score score;
+  score.number = subject.number;
+  for (const Labels& person : subject.people)
+    add_comparison(score, labels, person, 1 / static_cast<double>(subject.people.size()));
+  score.segments = static_cast<double>(number_of_segments(outcome.labels));
+  for (const auto& stage : outcome.stages) score.milliseconds += 1000 * stage.seconds;
+  score.stages = std::move(outcome.stages);
+  return score;
+}
+
+/// People against one another, every two of them.
+Score score_of_people(const Subject& subject) {
+  const auto people = static_cast<double>(subject.people.size());
+  Score score;
+  score.number = subject.number;
+  for (std::size_t i = 0; i < subject.people.size(); ++i) {
+    score.segments += static_cast<double>(number_of_segments(subject.people[i])) / people;
+    for (std::size_t j = 0; j < i; ++j)
+      add_comparison(score, subject.people[i], subject.people[j], 2 / (people * (people - 1)));
+  }
+  return score;
+}
+
+/// Calls `work(i)` for i from 0 to `number` - 1 in several threads; rethrows the first exception.
+void in_parallel(std::size_t number, std::size_t threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto run = [&] {
+    try {
+      for (std::size_t i = next++; i < number; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = number;
+    }
+  };
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(run);
+  run();
+  for (std::thread& thread : others) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+// ---- Output ----
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double x : values) sum += x;
+  return sum / static_cast<double>(values.size());
+}
+
+double standard_error(const std::vector<double>& values) {
+  const double m = mean(values), n = static_cast<double>(values.size());
+  double squares = 0;
+  for (const double x : values) squares += (x - m) * (x - m);
+  return n > 1 ? std::sqrt(squares / (n - 1) / n) : 0;
+}
+
+/// One of the numbers of all scores.
+std::vector<double> column(const std::vector<Score>& scores, std::size_t number) {
+  std::vector<double> values;
+  for (const Score& score : scores) values.push_back(score.numbers()[number]);
+  return values;
+}
+
+void print_row(const std::string& name, const std::vector<Score>& scores) {
+  std::printf("%-10s %6zu", name.c_str(), scores.size());
+  const std::vector<double> error = column(scores, 0);
+  std::printf(" %9.4f +- %.4f", mean(error), standard_error(error));
+  for (const std::size_t i : {1, 2, 3}) std::printf(" %8.4f", mean(column(scores, i)));
+  std::printf(" %8.1f %9.1f\n", mean(column(scores, 4)), mean(column(scores, 5)));
+}
+
+void print_table(const std::string& method, const std::vector<Score>& scores) {
+  std::printf("\n%-10s %6s %19s %8s %8s %8s %8s %9s\n", method.c_str(), "meshes", "Rand error", "Hamming", "GCE", "LCE",
+              "segments", "ms");
+  std::vector<std::pair<std::string, std::vector<Score>>> categories;
+  for (const Score& score : scores) {
+    const std::string category = category_of(score.number);
+    if (categories.empty() || categories.back().first != category) categories.push_back({category, {}});
+    categories.back().second.push_back(score);
+  }
+  for (const auto& [category, of_category] : categories) print_row(category, of_category);
+  print_row("all", scores);
+
+  std::printf("ms a stage:");
+  for (std::size_t i = 0; i < scores.front().stages.size(); ++i) {
+    std::vector<double> ms;
+    for (const Score& score : scores) ms.push_back(1000 * score.stages[i].seconds);
+    std::printf("  %s %.1f", scores.front().stages[i].name.c_str(), mean(ms));
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void write_scores(const std::string& path, const std::vector<std::string>& methods,
+                  const std::vector<std::vector<Score>>& scores) {
+  std::ofstream file(path);
+  file << "method,mesh";
+  for (const char* name : Score::names) file << ',' << name;
+  file << '\n';
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    for (const Score& score : scores[m]) {
+      file << methods[m] << ',' << score.number;
+      for (const double x : score.numbers()) file << ',' << x;
+      file << '\n';
+    }
+  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+Result result_of(const std::string& method, const Changes& changes, const std::vector<Score>& scores) {
+  Result result("princeton");
+  result.add("method", method).add("meshes", scores.size());
+  if (changes.noise > 0) result.add("noise", changes.noise);
+  if (changes.faces != 1) result.add("faces", changes.faces);
+  result.add("error", mean(column(scores, 0))).add("standard_error", standard_error(column(scores, 0)));
+  result.add("hamming", mean(column(scores, 1)))
+      .add("gce", mean(column(scores, 2)))
+      .add("lce", mean(column(scores, 3)));
+  result.add("segments", mean(column(scores, 4))).add("ms_per_mesh", mean(column(scores, 5)));
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+  CLI::App app("Agreement with people on the Princeton Segmentation Benchmark");
+  std::string data, meshes, csv;
+  std::vector<std::string> chosen = {"automatic", "count"};
+  Changes changes;
+  std::size_t threads = 1;
+  std::vector<std::string> names = {"people"};
+  for (const auto& [name, method] : methods()) names.push_back(name);
+  app.add_option("--data", data, "folder with data/off and data/seg/Benchmark")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--meshes", meshes, "file with the numbers of the meshes; default: all in the folder");
+  app.add_option("--method", chosen, "what segments, one or several")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  app.add_option("--noise", changes.noise, "displace the vertices, in percent of the diagonal")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--faces", changes.faces, "factor for the number of faces: 4, 1 or less than 1")
+      ->check(CLI::Range(0.01, 4.));
+  app.add_option("--threads", threads, "meshes at once; times are then those of a busy machine")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--csv", csv, "write the scores of each mesh to this file");
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    if (changes.faces > 1 && changes.faces != 4) throw std::invalid_argument("--faces must be 4 or at most 1");
+    const auto numbers =
+        meshes.empty() ? numbers_in_folder(std::filesystem::path(data) / "data" / "off") : numbers_in_file(meshes);
+    if (numbers.empty()) throw std::runtime_error(data + ": no meshes");
+
+    std::vector<std::vector<Score>> scores(chosen.size(), std::vector<Score>(numbers.size()));
+    in_parallel(numbers.size(), threads, [&](std::size_t i) {
+      const Subject subject = read_subject(data, numbers[i], changes);
+      for (std::size_t m = 0; m < chosen.size(); ++m) {
+        const auto method = std::find_if(methods().begin(), methods().end(),
+                                         [&](const auto& named) { return named.first == chosen[m]; });
+        scores[m][i] = method == methods().end() ? score_of_people(subject) : score_of(subject, method->second);
+      }
+    });
+
+    std::vector<Result> results;
+    for (std::size_t m = 0; m < chosen.size(); ++m) {
+      print_table(chosen[m], scores[m]);
+      results.push_back(result_of(chosen[m], changes, scores[m]));
+    }
+    if (!csv.empty()) write_scores(csv, chosen, scores);
+    print(results);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_princeton: %s\n", error.what());
+    return 1;
+  }
+}

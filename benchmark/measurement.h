@@ -1,0 +1,197 @@
+#ifndef RW_SEGMENTATION_BENCHMARK_MEASUREMENT_H
+#define RW_SEGMENTATION_BENCHMARK_MEASUREMENT_H
+
+// What the benchmark programs share: meshes of given sizes, clocks, measurements in processes of their own, and the
+// lines for machines that start with RESULT. Needs POSIX.
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/subdivision_method_3.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace measurement {
+
+using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+
+// ---- Meshes ----
+
+inline Mesh read_mesh(const std::string& path) {
+  Mesh mesh;
+  if (!CGAL::IO::read_polygon_mesh(path, mesh)) throw std::runtime_error(path + ": cannot be read as a mesh");
+  return mesh;
+}
+
+/// The path of one of CGAL's data meshes.
+inline std::string data_mesh([[maybe_unused]] const std::string& name) {
+#ifdef RW_SEGMENTATION_DATA_DIR
+  return RW_SEGMENTATION_DATA_DIR "/meshes/" + name;
+#else
+  throw std::runtime_error("CGAL's data meshes are not installed (libcgal-demo): name a mesh of your own");
+#endif
+}
+
+/// The names of the sizes in the order of growing meshes.
+inline const std::vector<std::string>& sizes() {
+  static const std::vector<std::string> names = {"10k", "40k", "160k", "640k", "2500k"};
+  return names;
+}
+
+/// A hand of 2390 triangles after one to five Loop subdivisions: 9 560, 38 240, 152 960, 611 840 or 2 447 360 faces.
+inline Mesh mesh_of_size(const std::string& size) {
+  const auto name = std::find(sizes().begin(), sizes().end(), size);
+  if (name == sizes().end()) throw std::invalid_argument("no size is called " + size);
+  const auto subdivisions = static_cast<unsigned int>(name - sizes().begin() + 1);
+  Mesh mesh = read_mesh(data_mesh("hand.off"));
+  CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(subdivisions));
+  return mesh;
+}
+
+/// Different faces, always the same ones of a mesh; the first ones of more faces are those of fewer.
+inline std::vector<Mesh::Face_index> random_faces(const Mesh& mesh, std::size_t number) {
+  if (number > mesh.number_of_faces())
+    throw std::invalid_argument(std::to_string(number) + " seeds on " + std::to_string(mesh.number_of_faces()) +
+                                " faces");
+  std::mt19937 random(1);
+  std::vector<Mesh::Face_index> faces(mesh.faces_begin(), mesh.faces_end());
+  for (std::size_t i = 0; i < number; ++i) std::swap(faces[i], faces[i + random() % (faces.size() - i)]);
+  faces.resize(number);
+  return faces;
+}
+
+// ---- Time and memory ----
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The middle value, the larger one of two.
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+inline double maximum(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+
+/// The memory that this process holds at the moment.
+inline double resident_mb() {
+  std::size_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// The most memory that this process has ever held.
+inline double peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
+}
+
+/// What a measurement gave: its numbers, or the reason why there are none.
+struct Outcome {
+  std::vector<double> numbers;
+  std::string failure;
+};
+
+/// Runs `measure()`, which returns a vector of numbers, in a process of its own that starts with what this one holds:
+/// neither memory that others have used nor their crash touches it.
+template <class Measure>
+Outcome in_own_process(const Measure& measure) {
+  std::fflush(stdout);
+#ifdef __GLIBC__
+  malloc_trim(0);  // what this process no longer needs would hide what the new one needs
+#endif
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("cannot open a pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot start a process");
+  if (child == 0) {
+    close(ends[0]);
+    FILE* out = fdopen(ends[1], "w");
+    try {
+      for (const double number : measure()) std::fprintf(out, "%.17g\n", number);
+    } catch (const std::exception& error) {
+      std::fprintf(out, "failure %s\n", error.what());
+    }
+    std::fclose(out);
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t count = 0; (count = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(count));
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+
+  Outcome outcome;
+  if (WIFSIGNALED(status)) outcome.failure = "ended by signal " + std::to_string(WTERMSIG(status));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("failure ", 0) == 0)
+      outcome.failure = line.substr(8);
+    else
+      outcome.numbers.push_back(std::stod(line));
+  }
+  return outcome;
+}
+
+// ---- Results ----
+
+/// A line for machines: RESULT bench=NAME key=value ... The lines are printed when the program ends.
+class Result {
+ public:
+  explicit Result(const std::string& bench) : line_("RESULT bench=" + bench) {}
+
+  template <class Value>
+  Result& add(const char* key, const Value& value) {
+    std::ostringstream text;
+    text << ' ' << key << '=' << value;
+    line_ += text.str();
+    return *this;
+  }
+
+  /// A text that may hold spaces; the last thing on its line.
+  Result& add_reason(const std::string& reason) { return add("reason", '"' + reason + '"'); }
+
+  const std::string& line() const { return line_; }
+
+ private:
+  std::string line_;
+};
+
+inline void print(const std::vector<Result>& results) {
+  std::cout << '\n';
+  for (const Result& result : results) std::cout << result.line() << '\n';
+  std::cout.flush();
+}
+
+}  // namespace measurement
+
+#endif
