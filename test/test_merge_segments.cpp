@@ -1,0 +1,431 @@
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/merge_segments.h>
+
+#include <boost/property_map/function_property_map.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "meshes.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+using meshes::Surface_mesh;
+using Labels = std::vector<std::size_t>;  // in the order of the faces of a shape
+
+/// Labels of the faces of a mesh that can be handed over as a property map.
+template <class Mesh>
+class Face_labels {
+ public:
+  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
+
+  explicit Face_labels(const Mesh& mesh, const Labels& labels = {}) : mesh_(mesh) {
+    std::size_t i = 0;
+    for (const face_descriptor f : faces(mesh)) label_[f] = i < labels.size() ? labels[i++] : untouched;
+  }
+  auto map() { return boost::make_assoc_property_map(label_); }
+  Labels values() const {
+    Labels values;
+    for (const face_descriptor f : faces(mesh_)) values.push_back(label_.at(f));
+    return values;
+  }
+  static constexpr std::size_t untouched = 12345;
+
+ private:
+  const Mesh& mesh_;
+  std::map<face_descriptor, std::size_t> label_;
+};
+
+/// Cells of faces around seeds that a generator draws: fragments as a walk might leave them.
+Labels cells(const Dual_graph& graph, std::size_t number, unsigned random_seed = 1) {
+  Labels labels(graph.number_of_faces(), number);
+  std::vector<Dual_graph::Index> front;
+  for (const std::size_t f : meshes::random_order(labels.size(), random_seed)) {
+    if (front.size() == number) break;
+    labels[f] = front.size();
+    front.push_back(static_cast<Dual_graph::Index>(f));
+  }
+  for (std::size_t i = 0; i < front.size(); ++i)
+    for (const auto& [next, edge] : graph.neighbours(front[i]))
+      if (labels[next] == number) {
+        labels[next] = labels[front[i]];
+        front.push_back(next);
+      }
+  return labels;
+}
+
+/// Whether both give the same faces the same label, up to the labels' names.
+bool same_partition(const Labels& a, const Labels& b) {
+  std::map<std::size_t, std::size_t> to_b, to_a;
+  for (std::size_t f = 0; f < a.size(); ++f)
+    if (to_b.emplace(a[f], b[f]).first->second != b[f] || to_a.emplace(b[f], a[f]).first->second != a[f]) return false;
+  return a.size() == b.size();
+}
+
+std::size_t number_of_labels(const Labels& labels) {
+  return std::set<std::size_t>(labels.begin(), labels.end()).size();
+}
+
+template <class Mesh, class MergeCost>
+Labels segments_of(const Mesh& mesh, const Labels& fragments, const MergeCost& cost, std::size_t number) {
+  Face_labels<Mesh> ids(mesh, fragments);
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Mesh>(mesh), cost);
+  EXPECT_EQ(hierarchy.segments(Segment_count_stop(number), ids.map()), number);
+  return ids.values();
+}
+
+/// Merges as defined, measuring all boundaries anew for every merge.
+template <class Difference, class Cost>
+std::vector<double> costs_by_definition(const Surface_mesh& mesh, Labels labels, const Difference& difference,
+                                        const Cost& cost) {
+  const auto np = CGAL::parameters::default_values();
+  const Mesh_dual_graph<Surface_mesh> graph(mesh);
+  const auto geometry = internal::face_geometry(mesh, graph, np);
+  const double unit = std::sqrt(geometry.total_area);
+  std::vector<double> costs;
+  while (true) {
+    std::map<std::size_t, Edge_sums> outline;
+    std::map<std::size_t, double> area;
+    std::map<std::pair<std::size_t, std::size_t>, Edge_sums> common;
+    for (std::size_t f = 0; f < labels.size(); ++f) area[labels[f]] += geometry.area[f] / geometry.total_area;
+    for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
+      const auto [f, g] = graph.faces_of(e);
+      if (labels[f] == labels[g]) continue;
+      const double length = geometry.edge_length[e] / unit;
+      const Edge_sums sums = {length, length * get(difference, graph.edge(e))};
+      common[std::minmax(labels[f], labels[g])] += sums;
+      outline[labels[f]] += sums;
+      outline[labels[g]] += sums;
+    }
+    if (common.empty()) return costs;
+    double cheapest = std::numeric_limits<double>::infinity();
+    std::pair<std::size_t, std::size_t> pair;
+    for (const auto& [regions, sums] : common) {
+      const auto [a, b] = regions;
+      Edge_sums whole = outline[a];
+      whole += outline[b];
+      whole.length -= sums.length;
+      whole.difference -= sums.difference;
+      const double c = cost(area[a], area[b], sums, whole);
+      if (c < cheapest) std::tie(cheapest, pair) = std::make_tuple(c, regions);
+    }
+    costs.push_back(cheapest);
+    std::replace(labels.begin(), labels.end(), pair.second, pair.first);
+  }
+}
+
+Surface_mesh bumpy_torus() { return meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03)); }
+
+template <class Cost>
+void expect_costs(const Surface_mesh& mesh, const Labels& fragments, const Cost& cost,
+                  const std::vector<double>& expected) {
+  Face_labels<Surface_mesh> ids(mesh, fragments);
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), cost);
+  ASSERT_EQ(hierarchy.merges().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(hierarchy.merges()[i].cost, expected[i], 1e-9 * expected[i]) << "merge " << i;
+}
+
+/// The cost of a user: small regions first.
+struct Number_of_faces {
+  using Region = int;
+  int region(Surface_mesh::Face_index) const { return 1; }
+  void join(int& region, int other) const { region += other; }
+  double operator()(int a, int b, const Region_boundary&) const { return a + b; }
+};
+
+}  // namespace
+
+// ---- The merges ----
+
+TEST(MergeSegments, RelativeBoundaryCostFollowsEquation10) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 60);
+  const auto expected =
+      costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
+                          [](double, double, const Edge_sums& common, const Edge_sums& whole) {
+                            return (common.difference / common.length) / (whole.difference / whole.length);
+                          });
+  ASSERT_EQ(expected.size(), 59u);
+  expect_costs(mesh, fragments, Relative_boundary_cost(), expected);
+  EXPECT_NEAR(expected.back(), 1, 1e-9) << "the last two segments are each other's whole boundary";
+}
+
+TEST(MergeSegments, SizeAwareCostFollowsItsFormula) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 60);
+  const auto expected =
+      costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
+                          [](double a, double b, const Edge_sums& common, const Edge_sums&) {
+                            return common.difference / common.length * (a * b / (a + b)) / common.length;
+                          });
+  expect_costs(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), expected);
+}
+
+TEST(MergeSegments, ThicknessRaisesTheSizeAwareCost) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::l_shape(2));
+  Labels fragments(num_faces(mesh), 0);
+  std::vector<double> thickness(num_faces(mesh), 0);
+  for (const auto f : faces(mesh)) {
+    const bool upper =
+        mesh.point(target(halfedge(f, mesh), mesh)).x() > 1 || mesh.point(source(halfedge(f, mesh), mesh)).x() > 1;
+    fragments[f] = upper;
+    thickness[f] = upper ? std::exp(1.) : std::exp(0.25);
+  }
+  const auto cost_with = [&](const std::vector<double>& values) {
+    const auto map = boost::make_function_property_map<Surface_mesh::Face_index>(
+        [&](Surface_mesh::Face_index f) { return values[f]; });
+    Face_labels<Surface_mesh> ids(mesh, fragments);
+    return merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh),
+                          Size_aware_cost<Surface_mesh>(mesh, map))
+        .merges()
+        .at(0)
+        .cost;
+  };
+  const double without = cost_with(std::vector<double>(thickness.size(), 0));
+  EXPECT_GT(without, 0);
+  EXPECT_NEAR(cost_with(thickness), without * (1 + 2 * 0.75), 1e-9 * without);
+  for (double& t : thickness) t = t > 2 ? 1e9 : 1;
+  EXPECT_NEAR(cost_with(thickness), without * 5, 1e-9 * without) << "steps of the logarithm count up to 2";
+}
+
+TEST(MergeSegments, UserCostGetsRegionsJoined) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  Face_labels<Surface_mesh> ids(mesh, fragments);
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Number_of_faces());
+  EXPECT_EQ(hierarchy.merges().back().cost, static_cast<double>(num_faces(mesh)));
+}
+
+TEST(MergeSegments, ThousandsOfFragmentsCostFewEvaluations) {
+  struct Counting : Relative_boundary_cost {
+    std::size_t* calls;
+    double operator()(const Region& a, const Region& b, const Region_boundary& boundary) const {
+      ++*calls;
+      return Relative_boundary_cost::operator()(a, b, boundary);
+    }
+  };
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 1, 200, 100), 0.005));
+  const std::size_t fragments = 5000;
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), fragments));
+  std::size_t calls = 0;
+  Counting cost;
+  cost.calls = &calls;
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), cost);
+  EXPECT_EQ(hierarchy.number_of_fragments(), fragments);
+  EXPECT_EQ(hierarchy.number_of_components(), 1u);
+  EXPECT_LT(calls, 100 * fragments);
+}
+
+TEST(MergeSegments, FaceOrderDoesNotMatter) {
+  const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 50);
+  const std::vector<std::size_t> order = meshes::random_order(shape.faces.size());
+  const Surface_mesh shuffled = meshes::surface_mesh(meshes::with_faces_in_order(shape, order));
+  Labels shuffled_fragments;
+  for (const std::size_t f : order) shuffled_fragments.push_back((fragments[f] * 7) % 50);
+
+  for (const std::size_t number : {1u, 2u, 7u, 20u, 50u}) {
+    const Labels segments = segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), number);
+    Labels expected;
+    for (const std::size_t f : order) expected.push_back(segments[f]);
+    EXPECT_TRUE(same_partition(
+        segments_of(shuffled, shuffled_fragments, Size_aware_cost<Surface_mesh>(shuffled), number), expected))
+        << number << " segments";
+  }
+}
+
+TEST(MergeSegments, ScaleDoesNotMatter) {
+  const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(meshes::surface_mesh(shape)), 50);
+  Labels segments;
+  for (const double scale : {1., 1e-150, 1e140}) {
+    const Surface_mesh mesh = meshes::surface_mesh(meshes::scaled(shape, scale));
+    const Labels scaled = segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), 8);
+    if (segments.empty()) segments = scaled;
+    EXPECT_EQ(scaled, segments) << "scale " << scale;
+  }
+}
+
+TEST(MergeSegments, ComponentsAreNeverJoined) {
+  const meshes::Shape shape = meshes::together(meshes::cube(2), meshes::moved(meshes::cube(2), {5, 0, 0}));
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  Labels fragments(num_faces(mesh));
+  std::iota(fragments.begin(), fragments.end(), std::size_t(0));
+  Face_labels<Surface_mesh> ids(mesh, fragments);
+  const auto hierarchy =
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  EXPECT_EQ(hierarchy.number_of_components(), 2u);
+  EXPECT_EQ(hierarchy.segments(Segment_count_stop(2), ids.map()), 2u);
+  Labels expected(num_faces(mesh), 0);
+  std::fill(expected.begin() + static_cast<std::ptrdiff_t>(num_faces(mesh) / 2), expected.end(), 1u);
+  EXPECT_EQ(ids.values(), expected);
+  EXPECT_THROW(hierarchy.segments(Segment_count_stop(1), ids.map()), std::invalid_argument);
+  EXPECT_EQ(ids.values(), expected) << "an error must leave the output alone";
+}
+
+TEST(MergeSegments, FlatMeshMergesAtNoCost) {  // 0 / 0 in Eq. 10
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::plane(10));
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 20));
+  const auto hierarchy =
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Relative_boundary_cost());
+  ASSERT_EQ(hierarchy.merges().size(), 19u);
+  for (const auto& merge : hierarchy.merges()) EXPECT_EQ(merge.cost, 0);
+}
+
+TEST(MergeSegments, RegionsThatMeetInAnEdgeWithoutLengthAreMergedLast) {
+  // Two triangles share the edge from (0, 0, 0) to itself, two others an ordinary one.
+  meshes::Shape shape;
+  shape.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {1, 1, 1}};
+  shape.faces = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}};
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  for (const bool relative : {true, false}) {
+    Face_labels<Surface_mesh> ids(mesh, {0, 1, 2});
+    const Dihedral_difference<Surface_mesh> difference(mesh);
+    const auto hierarchy = relative ? merge_segments(mesh, ids.map(), difference, Relative_boundary_cost())
+                                    : merge_segments(mesh, ids.map(), difference, Size_aware_cost<Surface_mesh>(mesh));
+    ASSERT_EQ(hierarchy.merges().size(), 2u);
+    EXPECT_TRUE(std::isfinite(hierarchy.merges()[0].cost));
+    EXPECT_EQ(hierarchy.merges()[1].cost, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(hierarchy.segments(Cost_threshold_stop(1e300), ids.map()), 2u);
+    EXPECT_EQ(ids.values(), (Labels{0, 1, 0}));
+  }
+}
+
+TEST(MergeSegments, RejectsACostThatIsNoNumber) {
+  struct Not_a_number : Relative_boundary_cost {
+    double operator()(Region, Region, const Region_boundary&) const { return std::nan(""); }
+  };
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::cube());
+  Face_labels<Surface_mesh> ids(mesh, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  EXPECT_THROW(merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Not_a_number()),
+               std::invalid_argument);
+}
+
+TEST(MergeSegments, CallbackSeesProgressAndCancels) {
+  const Surface_mesh mesh = bumpy_torus();
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 500));
+  const Dihedral_difference<Surface_mesh> difference(mesh);
+  std::vector<double> seen;
+  const std::function<bool(double)> watch = [&](double done) { return seen.push_back(done), true; };
+  merge_segments(mesh, ids.map(), difference, Relative_boundary_cost(), CGAL::parameters::callback(watch));
+  ASSERT_GT(seen.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_GE(seen.front(), 0);
+  EXPECT_LE(seen.back(), 1);
+  const std::function<bool(double)> cancel = [](double done) { return done < 0.5; };
+  EXPECT_THROW(
+      merge_segments(mesh, ids.map(), difference, Relative_boundary_cost(), CGAL::parameters::callback(cancel)),
+      Cancelled);
+}
+
+TEST(MergeSegments, LabelsMayBeAnyIntegers) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 20);
+  std::map<Surface_mesh::Face_index, int> odd;
+  for (const auto f : faces(mesh)) odd[f] = static_cast<int>(fragments[f]) * 1000000 - 5;
+  Face_labels<Surface_mesh> ids(mesh);
+  const auto hierarchy = merge_segments(mesh, boost::make_assoc_property_map(odd),
+                                        Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  EXPECT_EQ(hierarchy.segments(Segment_count_stop(5), ids.map()), 5u);
+  EXPECT_EQ(ids.values(), segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), 5));
+}
+
+TEST(MergeSegments, EmptyMeshHasAnEmptyHierarchy) {
+  const Surface_mesh mesh;
+  Face_labels<Surface_mesh> ids(mesh);
+  const auto hierarchy =
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  EXPECT_EQ(hierarchy.segments(Cost_threshold_stop(1), ids.map()), 0u);
+}
+
+template <class Holder>
+class MergeSegmentsOn : public testing::Test {};
+TYPED_TEST_SUITE(MergeSegmentsOn, meshes::Holders);
+
+TYPED_TEST(MergeSegmentsOn, EveryKindOfMesh) {
+  using Mesh = typename TypeParam::Mesh;
+  const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
+  const Surface_mesh reference = meshes::surface_mesh(shape);
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(reference), 50);
+  const TypeParam held(shape);
+  EXPECT_EQ(segments_of(held.mesh, fragments, Size_aware_cost<Mesh>(held.mesh), 9),
+            segments_of(reference, fragments, Size_aware_cost<Surface_mesh>(reference), 9));
+}
+
+// ---- The hierarchy ----
+
+TEST(SegmentHierarchy, LevelsAreNestedAndHaveEveryNumberOfSegments) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  Face_labels<Surface_mesh> ids(mesh, fragments);
+  const Segment_hierarchy hierarchy =
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  Labels finer = fragments;
+  for (std::size_t number = 40; number >= 1; --number) {
+    ASSERT_EQ(hierarchy.segments(Segment_count_stop(number), ids.map()), number);
+    const Labels segments = ids.values();
+    EXPECT_EQ(number_of_labels(segments), number);
+    EXPECT_EQ(*std::max_element(segments.begin(), segments.end()), number - 1) << "ids are contiguous";
+    std::map<std::size_t, std::size_t> segment_of_finer;
+    for (std::size_t f = 0; f < segments.size(); ++f)
+      EXPECT_EQ(segment_of_finer.emplace(finer[f], segments[f]).first->second, segments[f]);
+    finer = segments;
+  }
+}
+
+TEST(SegmentHierarchy, FragmentsKeepTheirIdsAtTheFinestLevel) {
+  const Surface_mesh mesh = bumpy_torus();
+  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  EXPECT_EQ(segments_of(mesh, fragments, Relative_boundary_cost(), 40), fragments);
+}
+
+TEST(SegmentHierarchy, NumberOfSegmentsOutOfReachIsAnError) {
+  const Merge_tree tree(5, {{0, 1, 0.1}, {2, 5, 0.2}, {3, 4, 0.3}});  // two components
+  EXPECT_THROW(tree.segment_of_fragments(1), std::invalid_argument);
+  EXPECT_THROW(tree.segment_of_fragments(6), std::invalid_argument);
+  EXPECT_EQ(tree.segment_of_fragments(5), (Labels{0, 1, 2, 3, 4}));
+  EXPECT_EQ(tree.segment_of_fragments(3), (Labels{0, 0, 0, 1, 2}));
+  EXPECT_EQ(tree.segment_of_fragments(2), (Labels{0, 0, 0, 1, 1}));
+  try {
+    tree.segment_of_fragments(0);
+    FAIL() << "0 segments were accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("from 2 (connected components) to 5 (fragments)"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(StopPredicates, StopWhereTheySay) {
+  const Merge_tree tree(6, {{0, 1, 0.1}, {2, 3, 0.3}, {6, 7, 0.2}, {4, 5, 0.9}, {8, 9, 0.4}});
+  EXPECT_EQ(Segment_count_stop(4)(tree), 4u);
+  EXPECT_EQ(Cost_threshold_stop(0.05)(tree), 6u);
+  EXPECT_EQ(Cost_threshold_stop(0.1)(tree), 5u) << "a cost equal to the threshold is merged";
+  EXPECT_EQ(Cost_threshold_stop(0.25)(tree), 5u) << "a cheaper merge later does not count";
+  EXPECT_EQ(Cost_threshold_stop(0.5)(tree), 3u);
+  EXPECT_EQ(Cost_threshold_stop(1)(tree), 1u);
+  EXPECT_EQ(Cost_jump_stop(0.5)(tree), 3u);
+  EXPECT_EQ(Cost_jump_stop(0.15)(tree), 5u);
+  EXPECT_EQ(Cost_jump_stop(1)(tree), 1u);
+}
+
+TEST(StopPredicates, MayBeTheUsersOwn) {
+  const Surface_mesh mesh = bumpy_torus();
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 40));
+  const auto hierarchy =
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  const auto half = [](const Merge_tree& tree) { return tree.number_of_fragments() / 2; };
+  EXPECT_EQ(hierarchy.segments(half, ids.map()), 20u);
+  EXPECT_EQ(number_of_labels(ids.values()), 20u);
+}

@@ -1,0 +1,417 @@
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Eigen_walk_solver.h>
+#include <RW_segmentation/Random_walk.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "meshes.h"
+#include "networks.h"
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+/// The labels of a mesh as a map that a walk can write and a test can read, whatever the kind of mesh.
+template <class Mesh>
+class Labels {
+ public:
+  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
+  explicit Labels(const Mesh& mesh) : graph_(mesh), values_(graph_.number_of_faces(), untouched) {}
+  static constexpr std::size_t untouched = 12345;
+
+  struct Map {
+    using key_type = face_descriptor;
+    using value_type = std::size_t;
+    using reference = std::size_t;
+    using category = boost::read_write_property_map_tag;
+    const Mesh_dual_graph<Mesh>* graph;
+    std::vector<std::size_t>* values;
+    friend void put(const Map& map, face_descriptor f, std::size_t label) {
+      (*map.values)[map.graph->index(f)] = label;
+    }
+    friend std::size_t get(const Map& map, face_descriptor f) { return (*map.values)[map.graph->index(f)]; }
+  };
+  Map map() { return {&graph_, &values_}; }
+  face_descriptor face(std::size_t i) const { return graph_.face(static_cast<Dual_graph::Index>(i)); }
+  const std::vector<std::size_t>& values() const { return values_; }
+  const Mesh_dual_graph<Mesh>& graph() const { return graph_; }
+
+ private:
+  Mesh_dual_graph<Mesh> graph_;
+  std::vector<std::size_t> values_;
+};
+
+template <class Mesh>
+auto equal_conductances() {
+  using edge_descriptor = typename boost::graph_traits<Mesh>::edge_descriptor;
+  return boost::make_function_property_map<edge_descriptor>([](const edge_descriptor&) { return 1.; });
+}
+
+template <class Mesh>
+Conductance<Mesh> dihedral_conductances(const Mesh& mesh) {
+  return Conductance<Mesh>(mesh, Dihedral_difference<Mesh>(mesh));
+}
+
+template <class Holder>
+class Walk : public testing::Test {};
+TYPED_TEST_SUITE(Walk, meshes::Holders);
+
+}  // namespace
+
+TYPED_TEST(Walk, CutsTheLShapeAlongItsConcaveEdge) {
+  const meshes::Shape shape = meshes::l_shape(4);
+  const TypeParam held(shape);
+  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  // One seed on the far end of each arm.
+  std::size_t ends[2] = {0, 0};
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    const auto centre = [&](std::size_t g, int axis) { return shape.points[shape.faces[g][0]][axis]; };
+    if (centre(f, 0) > centre(ends[0], 0)) ends[0] = f;
+    if (centre(f, 1) > centre(ends[1], 1)) ends[1] = f;
+  }
+  Random_walk walk(held.mesh, dihedral_conductances(held.mesh));
+  walk.add_seed(labels.face(ends[0]), 0);
+  walk.add_seed(labels.face(ends[1]), 1);
+  EXPECT_EQ(walk.segment(labels.map()), 2u);
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const std::size_t v : shape.faces[f]) centre += shape.points[v] / 3;
+    if (centre.x() > 1.01) {
+      EXPECT_EQ(labels.values()[f], 0u) << centre.transpose();
+    } else if (centre.y() > 1.01) {
+      EXPECT_EQ(labels.values()[f], 1u) << centre.transpose();
+    }
+  }
+}
+
+TYPED_TEST(Walk, GivesTheSamePotentialsAsADenseSolve) {
+  const TypeParam held(meshes::with_noise(meshes::sphere(2), 0.03));
+  const auto conductance = dihedral_conductances(held.mesh);
+  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  networks::Network network{labels.graph(), {}};
+  for (const auto& e : labels.graph().edge_descriptors()) network.conductances.push_back(get(conductance, e));
+  const std::vector<networks::Index> seeds = {3, 100, 200, 250};
+  Random_walk walk(held.mesh, conductance);
+  for (std::size_t l = 0; l < seeds.size(); ++l) walk.add_seed(labels.face(seeds[l]), 10 * l);
+  const auto dense = networks::dense_potentials<long double>(network, seeds);
+  for (std::size_t f = 0; f < dense.size(); ++f)
+    for (std::size_t l = 0; l < seeds.size(); ++l)
+      ASSERT_NEAR(walk.probability(labels.face(f), 10 * l), static_cast<double>(dense[f][l]), 1e-9);
+  EXPECT_EQ(walk.probability(labels.face(0), 5), 0);
+}
+
+TYPED_TEST(Walk, GivesComponentsWithoutASeedTheNextUnusedLabels) {
+  const TypeParam held(meshes::together(meshes::together(meshes::cube(), meshes::moved(meshes::cube(), {3, 0, 0})),
+                                        meshes::moved(meshes::plane(1), {0, 0, 5})));
+  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Random_walk walk(held.mesh, equal_conductances<typename TypeParam::Mesh>());
+  walk.add_seed(labels.face(15), 7);
+  walk.add_seed(labels.face(18), 3);
+  EXPECT_EQ(walk.segment(labels.map()), 4u);
+  EXPECT_EQ(walk.report().unseeded_components, 2u);
+  for (std::size_t f = 0; f < 12; ++f) EXPECT_EQ(labels.values()[f], 8u);
+  for (std::size_t f = 24; f < 26; ++f) EXPECT_EQ(labels.values()[f], 9u);
+  const std::set<std::size_t> middle(labels.values().begin() + 12, labels.values().begin() + 24);
+  EXPECT_EQ(middle, (std::set<std::size_t>{3, 7}));
+}
+
+TYPED_TEST(Walk, ReturnsContiguousIdsFromTheFreeFunction) {
+  const TypeParam held(meshes::torus(2, 0.7, 20, 10));
+  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  using Face = typename Labels<typename TypeParam::Mesh>::face_descriptor;
+  const std::vector<std::pair<Face, std::size_t>> seeds = {
+      {labels.face(0), 1000000}, {labels.face(100), 4}, {labels.face(200), 4}, {labels.face(300), 17}};
+  EXPECT_EQ(segmentation_from_seeds(held.mesh, dihedral_conductances(held.mesh), seeds, labels.map()), 3u);
+  EXPECT_EQ(labels.values()[0], 2u);
+  EXPECT_EQ(labels.values()[100], 0u);
+  EXPECT_EQ(labels.values()[200], 0u);
+  EXPECT_EQ(labels.values()[300], 1u);
+  const std::vector<Face> faces = {labels.face(5), labels.face(105), labels.face(205)};
+  EXPECT_EQ(segmentation_from_seeds(held.mesh, dihedral_conductances(held.mesh), faces, labels.map()), 3u);
+  for (std::size_t s = 0; s < 3; ++s) EXPECT_EQ(labels.values()[5 + 100 * s], s);
+}
+
+TYPED_TEST(Walk, MakesConnectedSegmentsOfTwoLabels) {
+  const TypeParam held(meshes::with_noise(meshes::torus(2, 0.8, 40, 20), 0.05));
+  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Random_walk walk(held.mesh, dihedral_conductances(held.mesh));
+  walk.add_seed(labels.face(10), 0);
+  walk.add_seed(labels.face(900), 1);
+  walk.write_raw_labels(labels.map());
+  EXPECT_EQ(walk.report().island_faces, 0u);
+  const std::vector<std::size_t> raw = labels.values();
+  walk.segment(labels.map());
+  EXPECT_EQ(raw, labels.values());
+}
+
+// ---- Invariance ----
+
+TEST(RandomWalk, DoesNotDependOnScalePlaceRotationOrOrderOfFaces) {
+  const meshes::Shape shape = meshes::with_noise(meshes::two_spheres_with_neck(3, 0.4, 24), 0.01);
+  const std::vector<std::size_t> order = meshes::random_order(shape.faces.size());
+  const auto segment = [](const meshes::Shape& s, std::size_t a, std::size_t b) {
+    const auto mesh = meshes::surface_mesh(s);
+    Labels<meshes::Surface_mesh> labels(mesh);
+    Random_walk walk(mesh, dihedral_conductances(mesh));
+    walk.add_seed(labels.face(a), 0);
+    walk.add_seed(labels.face(b), 1);
+    walk.segment(labels.map());
+    return labels.values();
+  };
+  const std::size_t a = 5, b = shape.faces.size() - 5;
+  const auto expected = segment(shape, a, b);
+  const auto differences = [&](const std::vector<std::size_t>& labels) {
+    std::size_t number = 0;
+    for (std::size_t f = 0; f < labels.size(); ++f) number += labels[f] != expected[f];
+    return number;
+  };
+  EXPECT_EQ(differences(segment(meshes::transformed(shape, meshes::some_rotation()), a, b)), 0u);
+  EXPECT_EQ(differences(segment(meshes::scaled(shape, 1e150), a, b)), 0u);
+  EXPECT_EQ(differences(segment(meshes::scaled(shape, 1e-150), a, b)), 0u);
+  EXPECT_LE(differences(segment(meshes::moved(shape, {1e8, -1e8, 1e8}), a, b)), shape.faces.size() / 200);
+
+  const auto place = [&](std::size_t face) {
+    return static_cast<std::size_t>(std::find(order.begin(), order.end(), face) - order.begin());
+  };
+  const auto shuffled = segment(meshes::with_faces_in_order(shape, order), place(a), place(b));
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shuffled[i], expected[order[i]]);
+}
+
+TEST(RandomWalk, SegmentsAPlaneByDistanceWhetherRotatedOrNot) {
+  for (const bool rotated : {false, true}) {
+    const meshes::Shape plane = meshes::plane(11);
+    const auto mesh = meshes::surface_mesh(rotated ? meshes::transformed(plane, meshes::some_rotation()) : plane);
+    Labels<meshes::Surface_mesh> labels(mesh);
+    Random_walk walk(mesh, dihedral_conductances(mesh));
+    walk.add_seed(labels.face(0), 0);
+    walk.add_seed(labels.face(241), 1);
+    walk.segment(labels.map());
+    EXPECT_EQ(std::count(labels.values().begin(), labels.values().end(), 0u), 121);
+  }
+}
+
+// ---- Editing ----
+
+namespace {
+
+/// A graph walk under random edits is held against a fresh solve after each.
+void edit_at_random(const networks::Network& network, std::size_t edits, unsigned seed, double accepted,
+                    internal::Graph_walk<Star_mesh_elimination>& walk) {
+  using networks::Index;
+  std::mt19937 random(seed);
+  const auto n = static_cast<Index>(network.graph.number_of_faces());
+  walk.clear_seeds();
+  for (std::size_t l = 0; l < 4; ++l) walk.add_seed(static_cast<Index>(random() % n), l);
+  walk.labels();
+  for (std::size_t edit = 0; edit < edits; ++edit) {
+    const auto action = random() % 5;
+    const std::size_t number = walk.seeds().size();
+    if (action < 2 && number < 12) {
+      walk.add_seed(static_cast<Index>(random() % n), random() % 6);
+    } else if (action < 4 && number > 2) {
+      walk.remove_seed(walk.seeds()[random() % number].face);
+    } else {
+      walk.add_seed(walk.seeds()[random() % number].face, random() % 6);
+    }
+    std::vector<Index> faces;
+    std::map<std::size_t, std::vector<std::size_t>> columns;
+    for (const auto& s : walk.seeds()) {
+      columns[s.label].push_back(faces.size());
+      faces.push_back(s.face);
+    }
+    Star_mesh_elimination fresh;
+    const Potentials expected = networks::potentials(fresh, network, faces);
+    std::vector<double> largest(n, -1), second(n, -1);
+    std::vector<std::size_t> label(n, 0);
+    for (const auto& [l, own] : columns) {
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+      for (const std::size_t c : own) sum += expected.col(static_cast<Eigen::Index>(c));
+      const std::vector<double> potential = columns.size() > 1 ? walk.potential(l) : std::vector<double>(n, 1.);
+      for (Index f = 0; f < n; ++f) {
+        ASSERT_NEAR(potential[f], sum[f], accepted) << "edit " << edit << " face " << f << " label " << l;
+        if (sum[f] > largest[f]) {
+          second[f] = std::exchange(largest[f], sum[f]);
+          label[f] = l;
+        } else {
+          second[f] = std::max(second[f], sum[f]);
+        }
+      }
+    }
+    const auto& raw = walk.raw_labels();
+    for (Index f = 0; f < n; ++f) {
+      if (largest[f] - second[f] <= accepted) continue;
+      ASSERT_EQ(raw[f], label[f]) << "edit " << edit << " face " << f;
+    }
+  }
+}
+
+}  // namespace
+
+TEST(SeedEditing, EqualsAFreshFactorisationAfterEachOfAThousandRandomEdits) {
+  std::mt19937 random(1);
+  networks::Network network{networks::triangulated_torus(16), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 9, random);
+  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  edit_at_random(network, 1000, 2, 1e-8, walk);
+  EXPECT_GT(walk.report().columns_added, 300u);
+  EXPECT_LT(walk.report().factorisations, 50u);
+}
+
+TEST(SeedEditing, StaysRightWithoutACap) {
+  std::mt19937 random(3);
+  networks::Network network{networks::triangulated_torus(12), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 200, random);
+  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  edit_at_random(network, 300, 4, 1e-8, walk);
+}
+
+TEST(SeedEditing, ChangesNothingWhenASeedIsAddedAndRemoved) {
+  const auto mesh = meshes::surface_mesh(meshes::with_noise(meshes::sphere(4), 0.01));
+  Labels<meshes::Surface_mesh> before(mesh), after(mesh);
+  Random_walk walk(mesh, dihedral_conductances(mesh));
+  for (std::size_t l = 0; l < 5; ++l) walk.add_seed(before.face(1000 * l), l);
+  walk.segment(before.map());
+  for (const std::size_t f : {500, 1500, 2500}) {
+    walk.add_seed(before.face(f), 9);
+    walk.segment(after.map());
+    EXPECT_NE(before.values(), after.values());
+    EXPECT_TRUE(walk.remove_seed(before.face(f)));
+    walk.segment(after.map());
+    EXPECT_EQ(before.values(), after.values());
+  }
+  EXPECT_EQ(walk.report().factorisations, 1u);
+}
+
+TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
+  std::mt19937 random(5);
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  for (networks::Index l = 0; l < 4; ++l) walk.add_seed(50 * l, l);
+  const auto before = walk.labels();
+  const auto potential = walk.potential(2);
+  for (const networks::Index l : {0, 1, 2}) {  // all of them but one leave and come back
+    walk.remove_seed(50 * l);
+    walk.labels();
+  }
+  for (const networks::Index l : {1, 2, 0}) {
+    walk.add_seed(50 * l, l);
+    walk.labels();
+  }
+  EXPECT_EQ(walk.labels(), before);
+  EXPECT_EQ(walk.report().factorisations, 1u);
+  const auto again = walk.potential(2);
+  for (std::size_t f = 0; f < again.size(); ++f) ASSERT_NEAR(again[f], potential[f], 1e-9);
+}
+
+TEST(SeedEditing, FollowsSeedsThroughSeveralComponents) {
+  const auto mesh =
+      meshes::surface_mesh(meshes::together(meshes::sphere(2), meshes::moved(meshes::sphere(2), {9, 0, 0})));
+  Labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
+  Random_walk walk(mesh, dihedral_conductances(mesh));
+  const auto check = [&] {
+    walk.segment(labels.map());
+    Random_walk once(mesh, dihedral_conductances(mesh));
+    for (const auto& [face, label] : walk.seeds()) once.add_seed(face, label);
+    once.segment(fresh.map());
+    EXPECT_EQ(labels.values(), fresh.values());
+  };
+  walk.add_seed(labels.face(1), 0);
+  walk.add_seed(labels.face(100), 1);
+  check();
+  walk.add_seed(labels.face(350), 2);  // the first in the second component
+  check();
+  walk.add_seed(labels.face(450), 3);
+  check();
+  walk.remove_seed(labels.face(350));
+  check();
+  walk.remove_seed(labels.face(450));  // the last one there
+  check();
+  walk.add_seed(labels.face(500), 1);
+  check();
+  walk.remove_seed(labels.face(1));
+  walk.remove_seed(labels.face(100));
+  check();
+}
+
+TEST(SeedEditing, AnswersStrokesOfHundredsOfFaces) {
+  const auto mesh = meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 0.7, 60, 30), 0.02));
+  Labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
+  Random_walk walk(mesh, dihedral_conductances(mesh));
+  for (std::size_t f = 0; f < 300; ++f) walk.add_seed(labels.face(f), 0);
+  for (std::size_t f = 1500; f < 1800; ++f) walk.add_seed(labels.face(f), 1);
+  walk.segment(labels.map());
+  for (std::size_t f = 2800; f < 3000; ++f) walk.add_seed(labels.face(f), 2);
+  EXPECT_EQ(walk.segment(labels.map()), 3u);
+  for (const auto& [face, label] : walk.seeds()) EXPECT_EQ(get(labels.map(), face), label);
+  double sum = 0;
+  for (std::size_t l = 0; l < 3; ++l) sum += walk.probability(labels.face(1000), l);
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(walk.report().columns_added, 0u);
+}
+
+TEST(SeedEditing, WorksWithEigensSolvers) {
+  std::mt19937 random(6);
+  networks::Network network{networks::triangulated_torus(12), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  internal::Graph_walk<Eigen_walk_solver<>> walk(network.graph, network.conductances);
+  internal::Graph_walk<Star_mesh_elimination> expected(network.graph, network.conductances);
+  for (int edit = 0; edit < 30; ++edit) {
+    if (edit % 3 == 2) {
+      const auto face = walk.seeds()[random() % walk.seeds().size()].face;
+      walk.remove_seed(face);
+      expected.remove_seed(face);
+    } else {
+      const auto face = static_cast<networks::Index>(random() % network.graph.number_of_faces());
+      walk.add_seed(face, static_cast<std::size_t>(edit));
+      expected.add_seed(face, static_cast<std::size_t>(edit));
+    }
+    ASSERT_EQ(walk.labels(), expected.labels()) << "edit " << edit;
+  }
+}
+
+// ---- Islands ----
+
+TEST(Islands, GoToTheBestSupportedNeighbourAndAreCounted) {
+  // On periodic grids some runs with six seeds have islands: found here by trying, then held to what is promised.
+  std::size_t runs_with_islands = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    networks::Network network{networks::triangulated_torus(30), {}};
+    network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+    const auto seeds = networks::random_faces(network.graph, 8, random);
+    for (std::size_t l = 0; l < seeds.size(); ++l) walk.add_seed(seeds[l], l);
+    const auto raw = walk.raw_labels();
+    const auto& labels = walk.labels();
+    std::size_t moved = 0;
+    for (std::size_t f = 0; f < raw.size(); ++f) moved += raw[f] != labels[f];
+    EXPECT_EQ(moved, walk.report().island_faces);
+    runs_with_islands += moved > 0;
+    // Now every segment is connected.
+    std::vector<char> reached(labels.size(), 0);
+    for (const auto start : seeds) {
+      std::vector<networks::Index> open = {start};
+      reached[start] = 1;
+      while (!open.empty()) {
+        const auto face = open.back();
+        open.pop_back();
+        for (const auto& [next, edge] : network.graph.neighbours(face))
+          if (!reached[next] && labels[next] == labels[face]) {
+            reached[next] = 1;
+            open.push_back(next);
+          }
+      }
+    }
+    EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), static_cast<std::ptrdiff_t>(labels.size()));
+  }
+  EXPECT_GT(runs_with_islands, 0u);
+}

@@ -1,0 +1,591 @@
+// The command-line tool segment_mesh, run as a program.
+
+#include <gtest/gtest.h>
+
+#ifndef SEGMENT_MESH
+
+TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
+
+#else
+
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace {
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t number_of_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+struct Result {
+  int exit_code;
+  std::string output, errors;
+};
+
+/// A folder of its own for each test, and the tool to be run in it.
+class Segment_mesh_tool : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+
+  /// The names of the files in the folder and their contents.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      result[entry.path().filename().string()] = content_of(entry.path().string());
+    return result;
+  }
+
+  /// Starts the tool in the folder; standard output and errors go to two files elsewhere.
+  pid_t start(const std::vector<std::string>& arguments) const {
+    const pid_t process = fork();
+    if (process == 0) {
+      std::filesystem::current_path(folder_);
+      if (!std::freopen(output_.c_str(), "w", stdout) || !std::freopen(errors_.c_str(), "w", stderr)) _exit(99);
+      std::vector<char*> pointers = {const_cast<char*>("segment_mesh")};
+      for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+      pointers.push_back(nullptr);
+      execv(SEGMENT_MESH, pointers.data());
+      _exit(99);
+    }
+    return process;
+  }
+
+  Result wait(pid_t process) const {
+    int status = 0;
+    waitpid(process, &status, 0);
+    Result result = {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content_of(output_),
+                     content_of(errors_)};
+    std::filesystem::remove(output_);
+    std::filesystem::remove(errors_);
+    return result;
+  }
+
+  Result run(const std::vector<std::string>& arguments) const { return wait(start(arguments)); }
+
+  /// Runs the tool, which must fail with the code and one line that has the text in it, and change no file.
+  void expect_failure(int exit_code, const std::string& text, const std::vector<std::string>& arguments) const {
+    const auto before = files();
+    const Result result = run(arguments);
+    const std::string shown = testing::PrintToString(arguments) + "\n" + result.errors;
+    EXPECT_EQ(result.exit_code, exit_code) << shown;
+    EXPECT_NE(result.errors.find(text), std::string::npos) << shown << "does not say " << text;
+    EXPECT_EQ(number_of_lines(result.errors), 1U) << shown;
+    EXPECT_EQ(result.output, "") << shown;
+    EXPECT_EQ(files(), before) << shown;
+  }
+
+  std::vector<std::size_t> labels(const std::string& name) const {
+    std::ifstream file(path(name));
+    return {std::istream_iterator<std::size_t>(file), {}};
+  }
+
+ private:
+  const std::string number_ = std::to_string(std::random_device()());
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rw_tool_" + number_);
+  const std::string output_ = folder_.string() + ".out", errors_ = folder_.string() + ".err";
+};
+
+/// A cube with sides at 0 and 1, in the order z = 0, z = 1, y = 0, x = 1, y = 1, x = 0, each of n by n squares. The
+/// corners are written as many times as there are squares: nothing is shared.
+std::string cube_of_separate_squares(int n) {
+  std::ostringstream points, faces;
+  const std::vector<std::function<std::array<double, 3>(double, double)>> sides = {
+      [](double u, double v) {
+        return std::array<double, 3>{v, u, 0};
+      },
+      [](double u, double v) {
+        return std::array<double, 3>{u, v, 1};
+      },
+      [](double u, double v) {
+        return std::array<double, 3>{u, 0, v};
+      },
+      [](double u, double v) {
+        return std::array<double, 3>{1, u, v};
+      },
+      [](double u, double v) {
+        return std::array<double, 3>{v, 1, u};
+      },
+      [](double u, double v) {
+        return std::array<double, 3>{0, v, u};
+      }};
+  int number = 0;
+  for (const auto& side : sides)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        for (const auto& [u, v] : {std::pair(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+          const auto p = side(double(u) / n, double(v) / n);
+          points << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+        }
+        faces << "4 " << number << ' ' << number + 1 << ' ' << number + 2 << ' ' << number + 3 << '\n';
+        number += 4;
+      }
+  return "OFF\n" + std::to_string(number) + " " + std::to_string(number / 4) + " 0\n" + points.str() + faces.str();
+}
+
+/// The square of n by n unit squares.
+std::string grid(int n) {
+  std::ostringstream file;
+  file << "OFF\n" << (n + 1) * (n + 1) << ' ' << n * n << " 0\n";
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) file << x << ' ' << y << ' ' << x * y % 2 << '\n';
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int a = y * (n + 1) + x;
+      file << "4 " << a << ' ' << a + 1 << ' ' << a + n + 2 << ' ' << a + n + 1 << '\n';
+    }
+  return file.str();
+}
+
+/// An open strip of 2 n triangles along x, a square each 0 <= x < n.
+std::string strip(int n) {
+  std::ostringstream file;
+  file << "OFF\n" << 2 * (n + 1) << ' ' << 2 * n << " 0\n";
+  for (int x = 0; x <= n; ++x) file << x << " 0 0\n" << x << " 1 0\n";
+  for (int x = 0; x < n; ++x)
+    file << "3 " << 2 * x << ' ' << 2 * x + 2 << ' ' << 2 * x + 3 << "\n3 " << 2 * x << ' ' << 2 * x + 3 << ' '
+         << 2 * x + 1 << '\n';
+  return file.str();
+}
+
+const std::vector<std::string> six_sides = {"--seed", "0.4,0.4,0", "--seed", "0.4,0.4,1", "--seed", "0.4,0,0.4",
+                                            "--seed", "1,0.4,0.4", "--seed", "0.4,1,0.4", "--seed", "0,0.4,0.4"};
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// ---- What it writes ----
+
+TEST_F(Segment_mesh_tool, TheSidesOfACubeAreItsSegmentsInTheOrderOfTheFile) {
+  write("cube.off", cube_of_separate_squares(5));
+  const Result result = run(std::vector<std::string>{"cube.off"} + six_sides +
+                            std::vector<std::string>{"--labels", "cube.seg", "--report", "cube.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("cube.off: merged 448 vertices"), std::string::npos) << result.errors;
+  std::vector<std::size_t> expected;
+  for (std::size_t f = 0; f < 150; ++f) expected.push_back(f / 25);
+  EXPECT_EQ(labels("cube.seg"), expected);
+
+  const auto report = nlohmann::json::parse(content_of(path("cube.json")));
+  EXPECT_EQ(number_of_lines(content_of(path("cube.json"))), 1U);
+  EXPECT_EQ(report["faces"], 150);
+  EXPECT_EQ(report["repairs"].size(), 1U);
+  ASSERT_EQ(report["segments"].size(), 6U);
+  std::set<nlohmann::json> colors;
+  for (const auto& segment : report["segments"]) {
+    EXPECT_EQ(segment["faces"], 25);
+    EXPECT_NEAR(segment["area_share"].get<double>(), 1. / 6, 1e-12);
+    colors.insert(segment["color"]);
+  }
+  EXPECT_EQ(colors.size(), 6U);
+}
+
+TEST_F(Segment_mesh_tool, FaceNumbersPointsAndFilesOfSeedsAreTheSame) {
+  write("cube.off", cube_of_separate_squares(5));
+  write("seeds.txt", "# one side each\n12\n0.5, 0.5, 1\n\n0.5 0 0.5 # in front\r\n  87=3\n112\n0,0.5,0.5=5\n");
+  ASSERT_EQ(run(std::vector<std::string>{"cube.off", "--labels", "a.seg"} + six_sides).exit_code, 0);
+  ASSERT_EQ(run({"cube.off", "--labels", "b.seg", "--seeds-file", "seeds.txt"}).exit_code, 0);
+  ASSERT_EQ(run({"cube.off", "--labels", "c.seg", "--seed", "12", "--seed", "37", "--seed", "62", "--seed", "87",
+                 "--seed", "112", "--seed", "137"})
+                .exit_code,
+            0);
+  EXPECT_EQ(labels("a.seg").size(), 150U);
+  EXPECT_EQ(labels("a.seg"), labels("b.seg"));
+  EXPECT_EQ(labels("a.seg"), labels("c.seg"));
+}
+
+TEST_F(Segment_mesh_tool, SeveralSeedsShareALabelAndLabelsAreTheUsers) {
+  write("cube.off", cube_of_separate_squares(4));
+  ASSERT_EQ(run({"cube.off", "--labels", "cube.seg", "--seed", "5=1000000", "--seed", "21=7", "--seed", "37=7",
+                 "--seed", "53=7", "--seed", "69=7", "--seed", "85=7"})
+                .exit_code,
+            0);
+  std::vector<std::size_t> expected(16, 1000000);
+  expected.resize(96, 7);
+  EXPECT_EQ(labels("cube.seg"), expected);
+}
+
+TEST_F(Segment_mesh_tool, ColoredMeshesKeepThePointsAndFacesOfTheFile) {
+  write("cube.off", cube_of_separate_squares(3));
+  ASSERT_EQ(
+      run(std::vector<std::string>{"cube.off", "-o", "out.off", "-o", "out.ply", "--output", "again.ply"} + six_sides)
+          .exit_code,
+      0);
+  EXPECT_EQ(content_of(path("out.ply")), content_of(path("again.ply")));
+  EXPECT_NE(content_of(path("out.ply")).find("element face 54\n"), std::string::npos);
+
+  std::istringstream original(content_of(path("cube.off"))), colored(content_of(path("out.off")));
+  std::map<std::string, std::size_t> faces_of_color;
+  std::string line, with_color;
+  for (std::size_t i = 0; std::getline(original, line) && std::getline(colored, with_color); ++i) {
+    ASSERT_EQ(with_color.compare(0, line.size(), line), 0) << with_color;
+    if (i >= 2 + 216) ++faces_of_color[with_color.substr(line.size())];
+  }
+  EXPECT_EQ(faces_of_color.size(), 6U);
+  for (const auto& [color, faces] : faces_of_color) EXPECT_EQ(faces, 9U) << color;
+}
+
+TEST_F(Segment_mesh_tool, ProbabilitiesAddUpToOneAndDecideTheLabels) {
+  write("strip.off", strip(30));
+  ASSERT_EQ(run({"strip.off", "--seed", "0=5", "--seed", "31=2", "--seed", "59=9", "--labels", "s.seg",
+                 "--probabilities", "p.txt"})
+                .exit_code,
+            0);
+  std::istringstream file(content_of(path("p.txt")));
+  std::string names;
+  std::getline(file, names);
+  EXPECT_EQ(names, "# 2 5 9");
+  const std::vector<std::size_t> label_of_column = {2, 5, 9}, found = labels("s.seg");
+  ASSERT_EQ(found.size(), 60U);
+  for (const std::size_t label : found) {
+    std::array<double, 3> p{};
+    ASSERT_TRUE(file >> p[0] >> p[1] >> p[2]);
+    EXPECT_NEAR(p[0] + p[1] + p[2], 1, 1e-12);
+    EXPECT_EQ(label_of_column[static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin())], label);
+  }
+}
+
+TEST_F(Segment_mesh_tool, FacesLeftOutByARepairGetTheLabelOfTheClosestFace) {
+  std::string file = strip(10);
+  file.replace(file.find("22 20 0"), 7, "22 24 0");
+  file += "3 0 1 1\n3 2 0 3\n3 20 21 20\n1 21\n";  // an edge, the first face again, an edge, a point
+  write("strip.off", file);
+  const Result result = run({"strip.off", "--seed", "0", "--seed", "19", "--labels", "s.seg"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("4 faces of the file left out of the mesh"), std::string::npos) << result.errors;
+  const auto found = labels("s.seg");
+  ASSERT_EQ(found.size(), 24U);
+  EXPECT_EQ(std::vector<std::size_t>(found.begin() + 20, found.end()), (std::vector<std::size_t>{0, 0, 1, 1}));
+  expect_failure(3, "seed 20: this face was left out of the mesh", {"strip.off", "--seed", "20", "--quiet"});
+}
+
+TEST_F(Segment_mesh_tool, WhatIsOddButNotWrongIsSaid) {
+  // Two strips apart from each other, and a triangle without area at the end of the first.
+  write("odd.off",
+        "OFF\n9 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0.5 0\n1 0.5 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 0 2 3\n3 2 1 5\n"
+        "3 6 7 8\n");
+  const Result result = run({"odd.off", "--seed", "0", "--labels", "odd.seg"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("1 face without area"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("1 component without a seed"), std::string::npos) << result.errors;
+  EXPECT_EQ(labels("odd.seg"), (std::vector<std::size_t>{0, 0, 0, 1}));
+  EXPECT_EQ(run({"odd.off", "--seed", "0", "--quiet"}).errors, "");
+}
+
+TEST_F(Segment_mesh_tool, AMeshWithoutFacesHasNoSegments) {
+  write("empty.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+  const Result result = run({"empty.off", "--labels", "e.seg", "-o", "e.ply", "--report", "e.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(content_of(path("e.seg")), "");
+  EXPECT_TRUE(nlohmann::json::parse(content_of(path("e.json")))["segments"].empty());
+}
+
+TEST_F(Segment_mesh_tool, AMeshInsideOutGivesTheSameSegmentsUnlessItIsKept) {
+  // An L-shaped prism: its one concave edge cuts it in two.
+  const std::string points =
+      "OFF\n12 8 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 1\n2 0 1\n2 1 1\n1 1 1\n1 2 1\n0 2 1\n";
+  write("l.off",
+        points +
+            "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n");
+  write("inside_out.off",
+        points +
+            "6 0 1 2 3 4 5\n6 11 10 9 8 7 6\n4 6 7 1 0\n4 7 8 2 1\n4 8 9 3 2\n4 9 10 4 3\n4 10 11 5 4\n4 11 6 0 5\n");
+  const std::vector<std::string> seeds = {"--smoothing", "0", "--convex-weight", "0.1", "--seed", "0",
+                                          "--seed",      "3", "--probabilities"};
+  ASSERT_EQ(run(std::vector<std::string>{"l.off"} + seeds + std::vector<std::string>{"a.txt"}).exit_code, 0);
+  const Result turned = run(std::vector<std::string>{"inside_out.off"} + seeds + std::vector<std::string>{"b.txt"});
+  ASSERT_EQ(turned.exit_code, 0);
+  EXPECT_NE(turned.errors.find("inside_out.off: turned 1 closed part"), std::string::npos) << turned.errors;
+  const Result kept =
+      run(std::vector<std::string>{"inside_out.off", "--keep-orientation"} + seeds + std::vector<std::string>{"c.txt"});
+  EXPECT_EQ(kept.errors, "");
+
+  const auto numbers = [&](const std::string& name) {
+    std::istringstream file(content_of(path(name)));
+    std::string names;
+    std::getline(file, names);
+    return std::vector<double>{std::istream_iterator<double>(file), {}};
+  };
+  const auto largest_difference = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+  };
+  ASSERT_EQ(numbers("a.txt").size(), 16U);
+  EXPECT_LT(largest_difference(numbers("a.txt"), numbers("b.txt")), 1e-9);
+  EXPECT_GT(largest_difference(numbers("a.txt"), numbers("c.txt")), 0.01);
+}
+
+// ---- Automatic segments ----
+
+/// A tower of balls of different sizes: an open surface of revolution with deep necks.
+std::string tower(int balls) {
+  constexpr int around = 24, along = 16;
+  std::ostringstream file;
+  const int rings = balls * along + 1;
+  file.precision(17);
+  file << "OFF\n" << rings * around << ' ' << (rings - 1) * around << " 0\n";
+  for (int ring = 0; ring < rings; ++ring) {
+    const int ball = std::min(ring / along, balls - 1);
+    const double size = 1 + 0.2 * (ball % 3), t = 3.14159265358979 * (ring - ball * along) / along;
+    const double radius = 0.2 + size * std::sin(t), height = 3 * ball + 1.5 * (1 - std::cos(t));
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / around;
+      file << radius * std::cos(angle) << ' ' << radius * std::sin(angle) << ' ' << height << '\n';
+    }
+  }
+  for (int ring = 0; ring + 1 < rings; ++ring)
+    for (int i = 0; i < around; ++i) {
+      const int a = ring * around + i, b = ring * around + (i + 1) % around;
+      file << "4 " << a << ' ' << b << ' ' << b + around << ' ' << a + around << '\n';
+    }
+  return file.str();
+}
+
+TEST_F(Segment_mesh_tool, WithoutSeedsItFindsThePartsByItself) {
+  write("tower.off", tower(4));
+  const Result result = run({"tower.off", "--labels", "t.seg", "--report", "t.json", "-o", "t.ply"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto found = labels("t.seg");
+  ASSERT_EQ(found.size(), 4U * 16 * 24);
+  std::set<std::size_t> middles;  // of the balls
+  for (std::size_t ball = 0; ball < 4; ++ball) middles.insert(found[(ball * 16 + 8) * 24]);
+  EXPECT_EQ(middles.size(), 4U);
+  const auto report = nlohmann::json::parse(content_of(path("t.json")));
+  EXPECT_EQ(report["segments"].size(), 4U);
+  EXPECT_EQ(report["seeds"], 40);
+  for (const char* stage : {"reading", "normals", "seeds", "walk", "merging", "writing"})
+    EXPECT_TRUE(report["milliseconds"].contains(stage)) << stage;
+}
+
+TEST_F(Segment_mesh_tool, AnyNumberOfSegmentsIsExactAndReadOffTheHierarchy) {
+  write("tower.off", tower(3));
+  ASSERT_EQ(run({"tower.off", "--hierarchy", "h.json"}).exit_code, 0);
+  const auto hierarchy = nlohmann::json::parse(content_of(path("h.json")));
+  const std::size_t fragments = hierarchy["fragments"];
+  EXPECT_EQ(fragments, 40U);
+  EXPECT_EQ(hierarchy["merges"].size(), 39U);
+  for (const std::size_t number : {1U, 3U, 7U, 20U}) {
+    ASSERT_EQ(run({"tower.off", "--segments", std::to_string(number), "--labels", "t.seg"}).exit_code, 0);
+    const auto found = labels("t.seg");
+    EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()).size(), number);
+
+    std::vector<std::size_t> parent(fragments + hierarchy["merges"].size());
+    std::iota(parent.begin(), parent.end(), std::size_t(0));
+    for (std::size_t merge = 0; merge < fragments - number; ++merge)
+      for (const int side : {0, 1}) parent[hierarchy["merges"][merge][side].get<std::size_t>()] = fragments + merge;
+    std::set<std::pair<std::size_t, std::size_t>> pairs;  // segment in the hierarchy, label
+    for (std::size_t f = 0; f < found.size(); ++f) {
+      std::size_t region = hierarchy["fragment_of_face"][f];
+      while (parent[region] != region) region = parent[region];
+      pairs.emplace(region, found[f]);
+    }
+    EXPECT_EQ(pairs.size(), number);
+  }
+  const Result many = run({"tower.off", "--segments", "100", "--labels", "t.seg", "--quiet"});
+  EXPECT_EQ(many.exit_code, 0) << many.errors;
+  const auto found = labels("t.seg");
+  EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()).size(), 100U);
+}
+
+TEST_F(Segment_mesh_tool, SplitWritesEachSegmentAsAMeshOfItsOwn) {
+  write("tower.off", tower(2));
+  ASSERT_EQ(run({"tower.off", "--segments", "3", "--labels", "t.seg", "--split", "parts"}).exit_code, 0);
+  std::map<std::size_t, std::size_t> faces_of;
+  for (const std::size_t label : labels("t.seg")) ++faces_of[label];
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("parts")), {}), 3);
+  for (const auto& [label, faces] : faces_of) {
+    const std::string file = content_of(path("parts/segment_" + std::to_string(label) + ".ply"));
+    EXPECT_NE(file.find("element face " + std::to_string(faces) + "\n"), std::string::npos) << label;
+  }
+  // The parts are meshes that it reads itself.
+  EXPECT_EQ(run({"parts/segment_0.ply", "--segments", "1", "--quiet"}).exit_code, 0);
+
+  std::filesystem::create_directory(path("empty"));
+  EXPECT_EQ(run({"tower.off", "--split", "empty"}).exit_code, 0);
+  EXPECT_EQ(run({"tower.off", "--split", "parts"}).exit_code, 5);
+  EXPECT_EQ(run({"tower.off", "--split", "new", "--segments", "0"}).exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(path("new")));
+}
+
+TEST_F(Segment_mesh_tool, SeedsOfTheUserJoinTheAutomaticOnes) {
+  write("tower.off", tower(2));
+  ASSERT_EQ(run({"tower.off", "--seeds", "10", "--seed", "5", "--seed", "100", "--hierarchy", "h.json"}).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("h.json")))["fragments"], 12);
+  const auto result = run({"tower.off", "--seed", "5", "--segments", "2", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("r.json")))["seeds"], 41);
+}
+
+TEST_F(Segment_mesh_tool, CoarseSeedsAreSegmentsThemselves) {
+  write("tower.off", tower(2));
+  ASSERT_EQ(
+      run({"tower.off", "--coarse", "--segments", "3", "--labels", "t.seg", "--probabilities", "p.txt"}).exit_code, 0);
+  const auto found = labels("t.seg");
+  EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), (std::set<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(content_of(path("p.txt")).substr(0, 8), "# 0 1 2\n");
+  EXPECT_EQ(run({"tower.off", "--coarse"}).exit_code, 0);
+}
+
+TEST_F(Segment_mesh_tool, ThePresetsNumbersHoldUnlessOthersAreGiven) {
+  write("tower.off", tower(2));
+  const auto parameters = [&](const std::vector<std::string>& arguments) {
+    EXPECT_EQ(run(std::vector<std::string>{"tower.off", "--report", "r.json"} + arguments).exit_code, 0);
+    return nlohmann::json::parse(content_of(path("r.json")))["parameters"];
+  };
+  EXPECT_EQ(parameters({})["convex_weight"], 0);
+  EXPECT_EQ(parameters({})["measure"], "angle");
+  EXPECT_EQ(parameters({"--seed", "0"})["convex_weight"], 0.02);
+  EXPECT_EQ(parameters({"--paper"})["convex_weight"], 0.2);
+  EXPECT_EQ(parameters({"--paper"})["measure"], "cosine");
+  EXPECT_EQ(parameters({"--paper"})["smoothing"], 0);
+  EXPECT_EQ(parameters({"--paper", "--convex-weight", "0.5", "--sigma", "2"})["convex_weight"], 0.5);
+  EXPECT_EQ(parameters({"--measure", "cosine", "--cap", "7", "--smoothing", "0"})["cap"], 7);
+}
+
+TEST_F(Segment_mesh_tool, ComponentsAreNeverJoined) {
+  write("two.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n");
+  ASSERT_EQ(run({"two.off", "--labels", "two.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("two.seg"), (std::vector<std::size_t>{0, 1}));
+  expect_failure(3, "the number of segments is 1, but must be from 2", {"two.off", "--segments", "1"});
+}
+
+TEST_F(Segment_mesh_tool, AMeshOfOneFaceIsOneSegment) {
+  write("one.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  ASSERT_EQ(run({"one.off", "--labels", "one.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("one.seg"), (std::vector<std::size_t>{0}));
+  ASSERT_EQ(run({"one.off", "--labels", "one.seg", "--seed", "0=4"}).exit_code, 0);
+  EXPECT_EQ(labels("one.seg"), (std::vector<std::size_t>{4}));
+}
+
+// ---- What it refuses ----
+
+TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
+  write("strip.off", strip(3));
+  expect_failure(1, "mesh is required", {});
+  expect_failure(1, "--no-such-option", {"strip.off", "--no-such-option"});
+  expect_failure(1, "--seed: 'x' is no seed", {"strip.off", "--seed", "x"});
+  expect_failure(1, "--seed: '-1' is no seed", {"strip.off", "--seed", "-1"});
+  expect_failure(1, "--seed: '1,2' is no seed", {"strip.off", "--seed", "1,2"});
+  expect_failure(1, "--seed: '1=-1' is no seed", {"strip.off", "--seed", "1=-1"});
+  expect_failure(1, "--sigma", {"strip.off", "--seed", "0", "--sigma", "wide"});
+  expect_failure(1, "--measure", {"strip.off", "--seed", "0", "--measure", "tangent"});
+  expect_failure(1, "--segments", {"strip.off", "--segments", "-1"});
+  expect_failure(1, "--coarse", {"strip.off", "--coarse", "--seed", "1"});
+  expect_failure(1, "--seed: '1=2': labels have no meaning", {"strip.off", "--segments", "2", "--seed", "1=2"});
+  expect_failure(1, "--probabilities", {"strip.off", "--probabilities", "p.txt"});
+  expect_failure(1, "--hierarchy", {"strip.off", "--seed", "1", "--hierarchy", "h.json"});
+  expect_failure(1, "out.stl is neither .ply nor .off", {"strip.off", "--seed", "0", "-o", "out.stl"});
+  expect_failure(1, "strip.off is the input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
+  expect_failure(1, "a.off is the input or another output",
+                 {"strip.off", "--seed", "0", "-o", "a.off", "--labels", "a.off"});
+}
+
+TEST_F(Segment_mesh_tool, UnreadableInputIsCodeTwo) {
+  expect_failure(2, "missing.off: No such file or directory", {"missing.off", "--seed", "0", "--labels", "l.seg"});
+  expect_failure(2, ".: this is a folder", {".", "--seed", "0"});
+  for (const auto& [name, content, message] : std::vector<std::array<std::string, 3>>{
+           {"empty.ply", "", "empty.ply: the file is empty"},
+           {"cut.off", strip(5).substr(0, 60), "cut.off:"},
+           {"garbage.stl", std::string(500, '\xaa'), "garbage.stl: the header promises"},
+           {"lie.off", "OFF\n4000000000 4000000000 0\n", "lie.off:2: the header promises 4000000000 vertices"},
+           {"nan.obj", "v 0 0 0\nv 1 nan 0\n", "nan.obj:2: the y coordinate is not finite"},
+           {"flat.off", "OFF\n3 1 0\n0 0\n1 0\n1 1\n3 0 1 2\n", "flat.off:3: the z coordinate is missing"}}) {
+    write(name, content);
+    expect_failure(2, message, {name, "--seed", "0", "--labels", "l.seg", "-o", "l.ply"});
+  }
+  write("strip.off", strip(3));
+  write("seeds.txt", "1\n# fine so far\n1;2\n");
+  expect_failure(2, "seeds.txt:3: '1;2' is no seed", {"strip.off", "--seeds-file", "seeds.txt"});
+  expect_failure(2, "missing.txt: No such file", {"strip.off", "--seeds-file", "missing.txt"});
+}
+
+TEST_F(Segment_mesh_tool, AnArgumentOutOfRangeIsCodeThree) {
+  write("strip.off", strip(3));
+  const auto expect = [&](const std::string& text, const std::vector<std::string>& arguments) {
+    expect_failure(3, text, std::vector<std::string>{"strip.off", "--labels", "l.seg"} + arguments);
+  };
+  expect("strip.off: seed 6: the file has 6 faces, the first is face 0", {"--seed", "6"});
+  expect("seed 18446744073709551615: the file has 6 faces", {"--seed", "18446744073709551615"});
+  expect("seed 2=1: another seed gives the same face the label 0", {"--seed", "2=0", "--seed", "2=1"});
+  expect("the number of segments is 0, but must be from 1", {"--segments", "0"});
+  expect("the number of segments is 7, but must be from 1", {"--segments", "7"});
+  expect("seeds is 0", {"--seeds", "0"});
+  for (const char* sigma : {"0", "-1", "nan", "inf"}) expect("sigma is ", {"--seed", "0", "--sigma", sigma});
+  for (const char* cap : {"0", "-1", "nan"}) expect("cap is ", {"--seed", "0", "--cap", cap});
+  for (const char* weight : {"-0.1", "1.1", "nan"})
+    expect("convex_weight is ", {"--seed", "0", "--convex-weight", weight});
+  for (const char* radius : {"-1", "nan", "inf"}) expect("radius is ", {"--seed", "0", "--smoothing", radius});
+}
+
+TEST_F(Segment_mesh_tool, AnOutputThatCannotBeWrittenIsCodeFive) {
+  write("strip.off", strip(3));
+  expect_failure(5, "no_such_folder/l.seg: No such file or directory",
+                 {"strip.off", "--seed", "0", "--labels", "no_such_folder/l.seg"});
+  expect_failure(5, "no_such_folder/l.ply: No such file or directory",
+                 {"strip.off", "--seed", "0", "--labels", "l.seg", "-o", "no_such_folder/l.ply"});
+}
+
+TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
+  write("grid.off", grid(500));  // keeps it busy for a while
+  const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "200000"});
+  // The outputs are created, under other names, before the work begins.
+  const auto is_at_work = [&] { return std::distance(std::filesystem::directory_iterator(path("")), {}) > 1; };
+  for (int i = 0; i < 60000 && !is_at_work(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(is_at_work());
+  kill(process, SIGINT);
+  const Result result = wait(process);
+  EXPECT_EQ(result.exit_code, 130) << result.errors;
+  EXPECT_NE(result.errors.find("cancelled, nothing was written\n"), std::string::npos) << result.errors;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1);
+}
+
+TEST_F(Segment_mesh_tool, HelpAndVersionGoToStandardOutput) {
+  const Result help = run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.output.find("Exit codes"), std::string::npos);
+  EXPECT_EQ(help.errors, "");
+  const Result version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.output.find("segment_mesh "), 0U);
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,275 @@
+#include <RW_segmentation/segmentation_via_random_walks.h>
+
+#include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
+#include "meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+/// The ids of a mesh's faces in the order of `faces(mesh)`, whatever the kind of mesh.
+template <class Mesh>
+class Ids {
+ public:
+  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
+  static constexpr std::size_t untouched = 12345;
+
+  explicit Ids(const Mesh& mesh) : graph_(mesh), values_(graph_.number_of_faces(), untouched) {}
+
+  struct Map {
+    using key_type = face_descriptor;
+    using value_type = std::size_t;
+    using reference = std::size_t;
+    using category = boost::read_write_property_map_tag;
+    const Mesh_dual_graph<Mesh>* graph;
+    std::vector<std::size_t>* values;
+    friend void put(const Map& map, face_descriptor f, std::size_t id) { (*map.values)[map.graph->index(f)] = id; }
+    friend std::size_t get(const Map& map, face_descriptor f) { return (*map.values)[map.graph->index(f)]; }
+  };
+  Map map() { return {&graph_, &values_}; }
+  face_descriptor face(std::size_t i) const { return graph_.face(static_cast<Dual_graph::Index>(i)); }
+  const std::vector<std::size_t>& values() const { return values_; }
+
+ private:
+  Mesh_dual_graph<Mesh> graph_;
+  std::vector<std::size_t> values_;
+};
+
+template <class Policy = Automatic_segmentation>
+std::vector<std::size_t> segments_of(const meshes::Shape& shape, const Policy& policy = Policy()) {
+  const auto mesh = meshes::surface_mesh(shape);
+  Ids<meshes::Surface_mesh> ids(mesh);
+  segmentation_via_random_walks(mesh, ids.map(), policy);
+  return ids.values();
+}
+
+std::size_t number_of(const std::vector<std::size_t>& ids) {
+  return std::set<std::size_t>(ids.begin(), ids.end()).size();
+}
+
+double rand_error(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+  return segmentation_measures::Overlaps(a, b).rand_index_error();
+}
+
+/// Two spheres joined by a neck.
+meshes::Shape dumbbell(std::size_t around = 32) { return meshes::two_spheres_with_neck(2.4, 0.3, around); }
+
+template <class Holder>
+class Automatic : public testing::Test {};
+TYPED_TEST_SUITE(Automatic, meshes::Holders);
+
+}  // namespace
+
+TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
+  const meshes::Shape shape = meshes::two_spheres_with_neck(2.0001, 0.2, 48);
+  const TypeParam held(shape);
+  Ids<typename TypeParam::Mesh> ids(held.mesh);
+  EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 2u);
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {  // faces come from the lowest to the highest
+    const double z = shape.points[shape.faces[f][0]].z();
+    if (std::abs(z) < 0.2) continue;
+    EXPECT_EQ(ids.values()[f], z < 0 ? ids.values().front() : ids.values().back()) << z;
+  }
+}
+
+TYPED_TEST(Automatic, LeavesASphereAndAPlaneWhole) {
+  for (const meshes::Shape& shape : {meshes::sphere(4), meshes::plane(20)}) {
+    const TypeParam held(shape);
+    Ids<typename TypeParam::Mesh> ids(held.mesh);
+    EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 1u);
+    EXPECT_EQ(number_of(ids.values()), 1u);
+  }
+}
+
+TYPED_TEST(Automatic, NeverJoinsComponents) {
+  const meshes::Shape one = meshes::sphere(2);
+  const meshes::Shape shape = meshes::together(meshes::together(one, meshes::moved(one, {3, 0, 0})),
+                                               meshes::moved(meshes::plane(3), {0, 0, 5}));
+  const TypeParam held(shape);
+  Ids<typename TypeParam::Mesh> ids(held.mesh);
+  EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 3u);
+  const auto& id = ids.values();
+  for (std::size_t f = 0; f < id.size(); ++f) EXPECT_EQ(id[f], id[f < 320 ? 0 : f < 640 ? 320 : 640]);
+  EXPECT_THROW(segmentation_via_random_walks(held.mesh, ids.map(), Automatic_segmentation(2)), std::invalid_argument);
+  EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map(), Automatic_segmentation(5)), 5u);
+}
+
+TYPED_TEST(Automatic, GivesEveryNumberOfSegmentsExactlyAndNested) {
+  const TypeParam held(dumbbell(20));
+  Ids<typename TypeParam::Mesh> ids(held.mesh), finer(held.mesh);
+  std::vector<std::size_t> before;
+  const auto hierarchy = hierarchy_via_random_walks(held.mesh);
+  for (std::size_t n = 1; n <= hierarchy.number_of_fragments(); ++n) {
+    EXPECT_EQ(hierarchy.segments(Segment_count_stop(n), finer.map()), n);
+    EXPECT_EQ(number_of(finer.values()), n);
+    if (n > 1) {
+      std::unordered_map<std::size_t, std::size_t> coarse_of;
+      for (std::size_t f = 0; f < finer.values().size(); ++f)
+        EXPECT_EQ(coarse_of.emplace(finer.values()[f], before[f]).first->second, before[f]);
+    }
+    before = finer.values();
+  }
+  EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map(), Automatic_segmentation(3)), 3u);
+}
+
+TYPED_TEST(Automatic, TakesTheUsersSeedsAmongItsOwn) {
+  const TypeParam held(dumbbell(20));
+  Ids<typename TypeParam::Mesh> ids(held.mesh);
+  const std::vector<typename Ids<typename TypeParam::Mesh>::face_descriptor> given = {ids.face(100), ids.face(105)};
+  const auto hierarchy = hierarchy_via_random_walks(held.mesh, Automatic_segmentation(), given);
+  EXPECT_EQ(hierarchy.report().seeds, 42u);
+  hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), ids.map());
+  EXPECT_NE(ids.values()[100], ids.values()[105]);
+}
+
+// ---- Invariance and robustness ----
+
+TEST(AutomaticSegmentation, DoesNotDependOnScalePlaceOrRotation) {
+  const meshes::Shape shape = meshes::with_noise(dumbbell(), 0.003);
+  const auto expected = segments_of(shape, Automatic_segmentation(4));
+  for (const auto& other : {meshes::scaled(shape, 1e100), meshes::scaled(shape, 1e-100),
+                            meshes::transformed(shape, meshes::some_rotation()), meshes::moved(shape, {1e3, 0, -1e3})})
+    EXPECT_LE(rand_error(segments_of(other, Automatic_segmentation(4)), expected), 0.01);
+}
+
+TEST(AutomaticSegmentation, HardlyDependsOnTheOrderOfFaces) {
+  const meshes::Shape shape = meshes::with_noise(dumbbell(), 0.003);
+  const auto order = meshes::random_order(shape.faces.size());
+  const auto expected = segments_of(shape), shuffled = segments_of(meshes::with_faces_in_order(shape, order));
+  std::vector<std::size_t> back(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) back[order[i]] = shuffled[i];
+  EXPECT_LE(rand_error(back, expected), 0.02);
+}
+
+TEST(AutomaticSegmentation, AgreesWithItselfOverResolutions) {
+  const meshes::Shape coarse = dumbbell(64), fine = meshes::subdivided(coarse);
+  const auto of_coarse = segments_of(coarse), of_fine = segments_of(fine);
+  std::vector<std::size_t> expected;  // each face makes four in a row
+  for (const std::size_t id : of_coarse) expected.insert(expected.end(), 4, id);
+  EXPECT_LE(rand_error(of_fine, expected), 0.05);
+}
+
+TEST(AutomaticSegmentation, BearsNoise) {
+  const meshes::Shape shape = dumbbell(64);
+  const double diagonal = std::sqrt(4 + 4 + 4.4 * 4.4);
+  EXPECT_LE(rand_error(segments_of(meshes::with_noise(shape, 0.003 * diagonal), Automatic_segmentation(2)),
+                       segments_of(shape, Automatic_segmentation(2))),
+            0.05);
+}
+
+TEST(AutomaticSegmentation, IsTheSameEveryTime) {
+  const auto mesh = meshes::data_mesh("elephant.off");
+  if (!mesh) GTEST_SKIP() << "CGAL's data meshes are not installed";
+  Ids<meshes::Surface_mesh> first(*mesh), second(*mesh);
+  const std::size_t segments = segmentation_via_random_walks(*mesh, first.map());
+  segmentation_via_random_walks(*mesh, second.map());
+  EXPECT_EQ(first.values(), second.values());
+  EXPECT_GE(segments, 6u);
+  EXPECT_LE(segments, 20u);
+}
+
+TEST(PaperSegmentation, CutsTwoSpheresApartWhenAskedForTwo) {
+  const auto ids = segments_of(dumbbell(), Paper_segmentation(2));
+  EXPECT_EQ(number_of(ids), 2u);
+  EXPECT_NE(ids.front(), ids.back());
+}
+
+// ---- Bad and odd input ----
+
+TEST(AutomaticPathologies, AnEmptyMeshHasNoSegments) {
+  const meshes::Surface_mesh mesh;
+  Ids<meshes::Surface_mesh> ids(mesh);
+  EXPECT_EQ(segmentation_via_random_walks(mesh, ids.map()), 0u);
+}
+
+TEST(AutomaticPathologies, ASingleFaceIsOneSegment) {
+  meshes::Shape shape = meshes::plane(1);
+  shape.faces.resize(1);
+  EXPECT_EQ(number_of(segments_of(shape)), 1u);
+}
+
+TEST(AutomaticPathologies, APlaneIsOneSegmentWhetherRotatedOrNot) {
+  EXPECT_EQ(number_of(segments_of(meshes::transformed(meshes::plane(15), meshes::some_rotation()))), 1u);
+}
+
+TEST(AutomaticPathologies, FacesWithoutAreaJoinTheirNeighbours) {
+  meshes::Shape shape = dumbbell();
+  shape.points[shape.faces[50][0]] = shape.points[shape.faces[50][1]];
+  const auto ids = segments_of(shape, Automatic_segmentation(2));
+  EXPECT_EQ(number_of(ids), 2u);
+  EXPECT_EQ(ids[50], ids[20]);
+}
+
+TEST(AutomaticPathologies, QuadsAreSegmentedLikeTriangles) {
+  EXPECT_EQ(number_of(segments_of(meshes::cube_of_quads(), Automatic_segmentation(6))), 6u);
+}
+
+TEST(AutomaticPathologies, AWrongNumberOfSegmentsIsAnErrorThatWritesNothing) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  Ids<meshes::Surface_mesh> ids(mesh);
+  for (const std::size_t n : {std::size_t(0), std::size_t(41), std::size_t(1000000)})
+    EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), Automatic_segmentation(n)), std::invalid_argument);
+  EXPECT_EQ(ids.values(), std::vector<std::size_t>(80, ids.untouched));
+}
+
+TEST(AutomaticPathologies, ACoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex) {
+  meshes::Shape shape = meshes::sphere(1);
+  shape.points[7].y() = std::numeric_limits<double>::quiet_NaN();
+  const auto mesh = meshes::surface_mesh(shape);
+  Ids<meshes::Surface_mesh> ids(mesh);
+  try {
+    segmentation_via_random_walks(mesh, ids.map());
+    ADD_FAILURE() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("vertex 7"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(ids.values().front(), ids.untouched);
+}
+
+TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  Ids<meshes::Surface_mesh> ids(mesh);
+  Automatic_segmentation policy;
+  policy.sigma = 0;
+  EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
+  policy = Automatic_segmentation();
+  policy.seeds = 0;
+  EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
+  policy = Automatic_segmentation();
+  policy.convex_weight = -1;
+  EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
+  EXPECT_EQ(ids.values().front(), ids.untouched);
+}
+
+TEST(AutomaticPathologies, TheCallbackSeesProgressAndCancels) {
+  const auto mesh = meshes::surface_mesh(dumbbell());
+  Ids<meshes::Surface_mesh> ids(mesh);
+  std::vector<double> seen;
+  const auto run = [&](double end) {
+    const std::function<bool(double)> callback = [&seen, end](double fraction) {
+      seen.push_back(fraction);
+      return fraction < end;
+    };
+    const std::vector<Ids<meshes::Surface_mesh>::face_descriptor> none;
+    segmentation_via_random_walks(mesh, ids.map(), Automatic_segmentation(), none,
+                                  CGAL::parameters::callback(callback));
+  };
+  EXPECT_THROW(run(0.5), Cancelled);
+  EXPECT_EQ(ids.values().front(), ids.untouched);
+  seen.clear();
+  run(2);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1);
+}

@@ -1,0 +1,340 @@
+// Smoothed normals against a dense solution of the same system, and on shapes whose normals are known.
+
+#include "meshes.h"
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/Face_diffusion.h>
+#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <gtest/gtest.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using RW_segmentation::Mesh_dual_graph;
+using RW_segmentation::Normal_smoothing;
+using RW_segmentation::smoothed_face_normals;
+using Normals = std::vector<Eigen::Vector3d>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Normal_smoothing without_widening(double radius) { return {radius, infinity, 4}; }
+
+/// The smoothed normals in the order of the faces.
+template <class Mesh>
+Normals smoothed(const Mesh& mesh, const Normal_smoothing& smoothing = {}) {
+  std::map<typename boost::graph_traits<Mesh>::face_descriptor, Eigen::Vector3d> normals;
+  smoothed_face_normals(mesh, boost::make_assoc_property_map(normals), smoothing);
+  Normals result;
+  for (const auto f : faces(mesh)) result.push_back(normals.at(f));
+  return result;
+}
+
+Normals smoothed(const meshes::Shape& shape, const Normal_smoothing& smoothing = {}) {
+  return smoothed(meshes::surface_mesh(shape), smoothing);
+}
+
+/// The measures of triangles as the documentation defines them.
+struct Triangles {
+  std::vector<double> area;
+  Normals normal;
+  std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, double>> edge;  // ends -> one face, length
+  std::vector<std::array<std::size_t, 2>> neighbours;
+  std::vector<double> length;
+  double total_area = 0;
+
+  explicit Triangles(const meshes::Shape& shape) {
+    for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+      const auto& f = shape.faces[i];
+      const Eigen::Vector3d p = shape.points[f[0]], q = shape.points[f[1]], r = shape.points[f[2]];
+      const Eigen::Vector3d cross = (q - p).cross(r - p);
+      area.push_back(cross.norm() / 2);
+      normal.push_back(cross.normalized());
+      total_area += area.back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::pair<std::size_t, std::size_t> ends = std::minmax(f[k], f[(k + 1) % 3]);
+        const double l = (shape.points[ends.first] - shape.points[ends.second]).norm();
+        const auto [found, fresh] = edge.insert({ends, {i, l}});
+        if (fresh) continue;
+        neighbours.push_back({found->second.first, i});
+        length.push_back(l);
+      }
+    }
+  }
+};
+
+/// The solution of (diag(A) + (radius R)^2 Lap) N = diag(A) N0, densely and with more digits.
+Normals dense_solution(const Triangles& t, double radius) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const auto n = static_cast<Eigen::Index>(t.area.size());
+  const double mean = t.total_area / static_cast<double>(n);
+  Matrix system = Matrix::Zero(n, n), right(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto f = static_cast<std::size_t>(i);
+    system(i, i) = std::max(t.area[f], 1e-4 * mean);
+    right.row(i) = (system(i, i) * t.normal[f].cast<long double>()).transpose();
+  }
+  for (std::size_t e = 0; e < t.length.size(); ++e) {
+    const auto i = static_cast<Eigen::Index>(t.neighbours[e][0]), j = static_cast<Eigen::Index>(t.neighbours[e][1]);
+    const double areas = t.area[t.neighbours[e][0]] + t.area[t.neighbours[e][1]];
+    const double distance = std::max(2. / 3 * areas, 1e-4 * mean) / std::max(t.length[e], 1e-4 * std::sqrt(mean));
+    const long double weight = radius * radius * t.total_area * t.length[e] / distance;
+    system(i, i) += weight;
+    system(j, j) += weight;
+    system(i, j) -= weight;
+    system(j, i) -= weight;
+  }
+  const Matrix solution = system.ldlt().solve(right);
+  Normals result;
+  for (Eigen::Index i = 0; i < n; ++i) result.push_back(solution.row(i).cast<double>().transpose());
+  return result;
+}
+
+/// The root mean square of the angles between two sets of vectors.
+double mean_angle(const Normals& a, const Normals& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i].normalized() - b[i].normalized()).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// A sphere with triangles of every kind: large ones, needles, and caps flatter than a millionth.
+meshes::Shape sphere_with_slivers() {
+  meshes::Shape shape = meshes::with_noise(meshes::sphere(2), 0.01);
+  for (std::size_t f = 0; f < shape.faces.size(); f += 29) {
+    const auto& corners = shape.faces[f];
+    const Eigen::Vector3d& p = shape.points[corners[0]];
+    const Eigen::Vector3d& q = shape.points[corners[1]];
+    if (f % 2 == 0)
+      shape.points[corners[2]] = (p + q) / 2 + 1e-7 * (shape.points[corners[2]] - (p + q) / 2);
+    else
+      shape.points[corners[2]] = p + 1e-6 * (shape.points[corners[2]] - p);
+  }
+  return shape;
+}
+
+/// Meshes on which the solver is held against the dense solution.
+std::vector<meshes::Shape> various_shapes() {
+  return {meshes::with_noise(meshes::sphere(2), 0.02),
+          meshes::l_shape(4),
+          meshes::with_noise(meshes::tube(4, 12, 14), 0.02),  // with borders
+          meshes::together(meshes::cube(3), meshes::moved(meshes::scaled(meshes::sphere(1), 0.1), {5, 0, 0})),
+          meshes::together(meshes::cube(3), meshes::moved(meshes::scaled(meshes::folded_strip(1), 1e-3), {5, 0, 0})),
+          sphere_with_slivers()};
+}
+
+TEST(Smoothed_face_normals, AreTheDenseSolution) {
+  for (const meshes::Shape& shape : various_shapes())
+    for (const double radius : {0.0005, 0.01, 0.04, 0.1})
+      EXPECT_LT(mean_angle(smoothed(shape, without_widening(radius)), dense_solution(Triangles(shape), radius)), 1e-3)
+          << shape.faces.size() << " faces, radius " << radius;
+}
+
+TEST(Smoothed_face_normals, ComeFromASolverThatConvergesToTheDenseSolution) {
+  for (const meshes::Shape& shape : various_shapes()) {
+    const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
+    const Mesh_dual_graph graph(mesh);
+    const auto geometry = RW_segmentation::internal::face_geometry(mesh, graph, CGAL::parameters::default_values());
+    for (const double radius : {0.01, 0.1}) {
+      const Normals expected = dense_solution(Triangles(shape), radius);
+      for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+        Normals result = geometry.normal;
+        RW_segmentation::internal::Face_diffusion(graph, geometry, radius * radius * geometry.total_area)
+            .solve(geometry.normal, result, tolerance, {});
+        EXPECT_LT(mean_angle(result, expected), 5 * tolerance) << shape.faces.size() << " faces, radius " << radius;
+      }
+    }
+  }
+}
+
+TEST(Smoothed_face_normals, OfAPlaneStayAsTheyAre) {
+  const meshes::Shape plane = meshes::transformed(meshes::plane(8), meshes::some_rotation());
+  const Eigen::Vector3d up = meshes::some_rotation().linear() * Eigen::Vector3d::UnitZ();
+  for (const Eigen::Vector3d& n : smoothed(plane)) EXPECT_LT((n - up).norm(), 1e-12);
+}
+
+TEST(Smoothed_face_normals, OfASphereStayRadial) {
+  const meshes::Shape sphere = meshes::sphere(4);
+  for (const double radius : {0.01, 0.05}) {
+    const Normals normals = smoothed(sphere, without_widening(radius));
+    for (std::size_t f = 0; f < normals.size(); ++f) {
+      Eigen::Vector3d radial = Eigen::Vector3d::Zero();
+      for (const std::size_t corner : sphere.faces[f]) radial += sphere.points[corner];
+      EXPECT_LT((normals[f] - radial.normalized()).norm(), 1e-2);
+    }
+  }
+}
+
+TEST(Smoothed_face_normals, LoseNoise) {
+  const meshes::Shape sphere = meshes::sphere(4), noisy = meshes::with_noise(sphere, 0.01);
+  const Triangles clean(sphere), rough(noisy);
+  EXPECT_LT(mean_angle(smoothed(noisy), clean.normal), mean_angle(rough.normal, clean.normal) / 3);
+}
+
+TEST(Smoothed_face_normals, RecogniseNoiseAndWiden) {
+  const meshes::Shape noisy = meshes::with_noise(meshes::sphere(4), 0.01);
+  const Normals own = smoothed(noisy, without_widening(0));
+  const Normals first = smoothed(noisy, without_widening(0.01));
+  std::vector<double> turn;
+  for (std::size_t f = 0; f < own.size(); ++f) turn.push_back((first[f] - own[f]).norm());
+  std::nth_element(turn.begin(), turn.begin() + 2560, turn.end());
+  const double widening = turn[2560] / 0.1;
+  ASSERT_GT(widening, 1.2);
+  ASSERT_LT(widening, 4);
+
+  EXPECT_LT(mean_angle(smoothed(noisy), smoothed(noisy, without_widening(0.01 * widening))), 1e-3);
+  EXPECT_LT(mean_angle(smoothed(noisy, {0.01, 0.01, 3}), smoothed(noisy, without_widening(0.03))), 1e-3);
+}
+
+TEST(Smoothed_face_normals, DoNotWidenWithoutNoise) {
+  const meshes::Shape torus = meshes::torus(2, 0.7, 80, 40);
+  EXPECT_EQ(smoothed(torus), smoothed(torus, without_widening(0.01)));
+}
+
+TEST(Smoothed_face_normals, WithRadiusZeroAreTheFacesOwn) {
+  const meshes::Shape shape = meshes::with_noise(meshes::l_shape(2), 0.05);
+  const Triangles triangles(shape);
+  const Normals result = smoothed(shape, {0, 0.01, 4});
+  for (std::size_t f = 0; f < result.size(); ++f) EXPECT_LT((result[f] - triangles.normal[f]).norm(), 1e-12);
+}
+
+TEST(Smoothed_face_normals, DoNotDependOnScaleOrPlace) {
+  meshes::Shape shape = meshes::with_noise(meshes::torus(2, 0.7, 24, 12), 0.01);
+  for (Eigen::Vector3d& p : shape.points)
+    for (double& x : p) x = std::round(1024 * x) / 1024;  // so that moving is exact
+  const Normals expected = smoothed(shape);
+  for (const double factor : {1e150, 1e-160, 3e-5})
+    EXPECT_LT(mean_angle(smoothed(meshes::scaled(shape, factor)), expected), 1e-6);
+  EXPECT_LT(mean_angle(smoothed(meshes::moved(shape, {1e8, -2e8, 0})), expected), 1e-6);
+}
+
+TEST(Smoothed_face_normals, TurnWithTheShape) {
+  const meshes::Shape shape = meshes::with_noise(meshes::l_shape(4), 0.02);
+  Normals expected = smoothed(shape);
+  for (Eigen::Vector3d& n : expected) n = meshes::some_rotation().linear() * n;
+  EXPECT_LT(mean_angle(smoothed(meshes::transformed(shape, meshes::some_rotation())), expected), 1e-4);
+}
+
+TEST(Smoothed_face_normals, OfFacesWithoutAreaAreThoseOfTheirSurroundings) {
+  meshes::Shape shape = meshes::transformed(meshes::plane(3), meshes::some_rotation());
+  shape.points[5] = shape.points[6];  // between two inner vertices
+  const Eigen::Vector3d up = meshes::some_rotation().linear() * Eigen::Vector3d::UnitZ();
+  const Triangles triangles(shape);
+  EXPECT_LT(*std::min_element(triangles.area.begin(), triangles.area.end()), 1e-15);
+  for (const Eigen::Vector3d& n : smoothed(shape)) EXPECT_LT((n - up).norm(), 1e-3);
+}
+
+TEST(Smoothed_face_normals, OfAFaceAloneAreItsOwnOrZero) {
+  meshes::Shape shape;
+  shape.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {7, 0, 0}};
+  shape.faces = {{0, 1, 2}, {3, 4, 5}};
+  const Normals normals = smoothed(shape);
+  EXPECT_LT((normals[0] - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_EQ(normals[1].norm(), 0);
+}
+
+TEST(Smoothed_face_normals, OfAPartMuchSmallerThanTheRadiusAreItsOwn) {
+  const meshes::Shape speck = meshes::moved(meshes::scaled(meshes::l_shape(), 0.01), {2, 0, 0});
+  const Normals normals = smoothed(meshes::together(speck, meshes::cube(4)), without_widening(0.3));
+  const Normals own = Triangles(speck).normal;
+  for (std::size_t f = 0; f < own.size(); ++f) EXPECT_LT((normals[f] - own[f]).norm(), 1e-9);
+}
+
+TEST(Smoothed_face_normals, OfAMeshWithoutFacesAreNone) { EXPECT_TRUE(smoothed(meshes::Surface_mesh()).empty()); }
+
+TEST(Smoothed_face_normals, OfAMeshWithoutAreaAreZero) {
+  meshes::Shape shape = meshes::plane(2);
+  for (Eigen::Vector3d& p : shape.points) p.setConstant(2);
+  for (const Eigen::Vector3d& n : smoothed(shape)) EXPECT_EQ(n.norm(), 0);
+}
+
+TEST(Smoothed_face_normals, AreNotWrittenWhenANumberIsImpossible) {
+  const meshes::Surface_mesh mesh = meshes::surface_mesh(meshes::cube());
+  std::map<meshes::Surface_mesh::Face_index, Eigen::Vector3d> normals;
+  const auto map = boost::make_assoc_property_map(normals);
+  for (const Normal_smoothing& smoothing :
+       {Normal_smoothing{-0.1, 0.1, 4}, Normal_smoothing{nan, 0.1, 4}, Normal_smoothing{infinity, 0.1, 4},
+        Normal_smoothing{0.01, 0, 4}, Normal_smoothing{0.01, nan, 4}, Normal_smoothing{0.01, 0.1, 0.9},
+        Normal_smoothing{0.01, 0.1, nan}})
+    EXPECT_THROW(smoothed_face_normals(mesh, map, smoothing), std::invalid_argument);
+  EXPECT_TRUE(normals.empty());
+}
+
+TEST(Smoothed_face_normals, CanBeCancelled) {
+  const meshes::Surface_mesh mesh = meshes::surface_mesh(meshes::with_noise(meshes::sphere(3), 0.02));
+  std::map<meshes::Surface_mesh::Face_index, Eigen::Vector3d> normals;
+  std::vector<double> fractions;
+  const std::function<bool(double)> watch = [&](double fraction) {
+    fractions.push_back(fraction);
+    return true;
+  };
+  smoothed_face_normals(mesh, boost::make_assoc_property_map(normals), {}, CGAL::parameters::callback(watch));
+  ASSERT_FALSE(fractions.empty());
+  for (const double fraction : fractions) {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+  }
+  EXPECT_EQ(fractions.back(), 1);
+
+  normals.clear();
+  const std::function<bool(double)> cancel = [](double) { return false; };
+  EXPECT_THROW(
+      smoothed_face_normals(mesh, boost::make_assoc_property_map(normals), {}, CGAL::parameters::callback(cancel)),
+      RW_segmentation::Cancelled);
+  EXPECT_TRUE(normals.empty());
+}
+
+template <class Holder>
+class Smoothed_face_normals_of : public testing::Test {};
+TYPED_TEST_SUITE(Smoothed_face_normals_of, meshes::Holders);
+
+TYPED_TEST(Smoothed_face_normals_of, AnyMeshAreTheSameUnitVectors) {
+  for (const meshes::Shape& shape : {meshes::with_noise(meshes::tube(4, 12, 14), 0.02), meshes::l_shape(3)}) {
+    const TypeParam held(shape);
+    const Normals normals = smoothed(held.mesh);
+    const Normals expected = smoothed(shape);
+    ASSERT_EQ(normals.size(), expected.size());
+    for (std::size_t f = 0; f < normals.size(); ++f) {
+      EXPECT_NEAR(normals[f].norm(), 1, 1e-12);
+      EXPECT_LT((normals[f] - expected[f]).norm(), 1e-3);
+    }
+  }
+}
+
+TYPED_TEST(Smoothed_face_normals_of, AnyMeshNameAVertexThatIsNotFinite) {
+  meshes::Shape shape = meshes::plane(2);
+  shape.points[4].z() = nan;
+  const TypeParam held(shape);
+  try {
+    smoothed(held.mesh);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("vertex 4 "), std::string::npos) << error.what();
+  }
+}
+
+TEST(Smoothed_face_normals, AreWrittenAsVectorsOfTheKernel) {
+  meshes::Surface_mesh mesh = meshes::surface_mesh(meshes::cube(2));
+  const auto normals = mesh.add_property_map<meshes::Surface_mesh::Face_index, meshes::Kernel::Vector_3>("f:n").first;
+  smoothed_face_normals(mesh, normals);
+  for (const auto f : mesh.faces()) EXPECT_NEAR(normals[f].squared_length(), 1, 1e-12);
+}
+
+}  // namespace

@@ -1,0 +1,17 @@
+#include <RW_segmentation/version.h>
+
+#include <CGAL/version.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+TEST(Version, of_the_package_is_that_of_the_header) {
+  const std::string version = std::to_string(RW_SEGMENTATION_VERSION_MAJOR) + "." +
+                              std::to_string(RW_SEGMENTATION_VERSION_MINOR) + "." +
+                              std::to_string(RW_SEGMENTATION_VERSION_PATCH);
+  EXPECT_EQ(version, PACKAGE_VERSION);
+}
+
+// Headers of another CGAL on the include path would make a run with CGAL 6 a second run with CGAL 5.
+TEST(Version, of_CGAL_is_the_one_that_was_asked_for) { EXPECT_STREQ(CGAL_VERSION_STR, FOUND_CGAL_VERSION); }

@@ -1,0 +1,274 @@
+#include <RW_segmentation/Eigen_walk_solver.h>
+#include <RW_segmentation/Star_mesh_elimination.h>
+#ifdef RW_SEGMENTATION_WITH_CHOLMOD
+#include <Eigen/CholmodSupport>
+#endif
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <gtest/gtest.h>
+#include "networks.h"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace networks;
+using RW_segmentation::Eigen_walk_solver;
+using RW_segmentation::Potentials;
+using RW_segmentation::Star_mesh_elimination;
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+// 500 decimal digits. Long double would not do: weak links between clusters cost it all of its own.
+using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<500>>;
+
+template <class Solver>
+class Walk_solver : public testing::Test {};
+
+#ifdef RW_SEGMENTATION_WITH_CHOLMOD
+using Solvers = testing::Types<Star_mesh_elimination, Eigen_walk_solver<>,
+                               Eigen_walk_solver<Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>>,
+                               Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>>;
+#else
+using Solvers = testing::Types<Star_mesh_elimination, Eigen_walk_solver<>,
+                               Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>>;
+#endif
+TYPED_TEST_SUITE(Walk_solver, Solvers);
+
+double largest_relative_error(const Potentials& potentials, const std::vector<std::vector<Exact>>& exact) {
+  double largest = 0;
+  for (std::size_t f = 0; f < exact.size(); ++f)
+    for (std::size_t l = 0; l < exact[f].size(); ++l) {
+      const double computed = potentials(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(l));
+      if (exact[f][l] < 1e-290) continue;
+      largest = std::max(largest, static_cast<double>(abs(computed / exact[f][l] - 1)));
+    }
+  return largest;
+}
+
+}  // namespace
+
+TEST(StarMeshElimination, IsRightToRelative1e12WithConductancesSpreadOver200Decades) {
+  std::mt19937 random(1);
+  for (const double decades : {0., 20., 200.})
+    for (int trial = 0; trial < 4; ++trial) {
+      Network network{trial % 2 ? random_graph(60, random) : triangulated_torus(6), {}};
+      network.conductances = spread_conductances(network.graph.number_of_edges(), decades, random);
+      const std::vector<Index> seeds = random_faces(network.graph, 4, random);
+      Star_mesh_elimination solver;
+      const Potentials potentials = networks::potentials(solver, network, seeds);
+      EXPECT_LE(largest_relative_error(potentials, dense_potentials<Exact>(network, seeds)), 1e-12)
+          << decades << " decades, trial " << trial;
+    }
+}
+
+TEST(StarMeshElimination, IsRightWhereWeakLinksJoinClusters) {
+  // Four strongly connected clusters joined by links of 1e-100: double Cholesky loses everything here.
+  std::mt19937 random(2);
+  std::vector<std::array<Index, 2>> edges;
+  std::vector<double> conductances;
+  for (Index cluster = 0; cluster < 4; ++cluster) {
+    for (int k = 0; k < 40; ++k) {
+      const auto f = static_cast<Index>(random() % 12), g = static_cast<Index>(random() % 12);
+      if (f != g) edges.push_back({12 * cluster + f, 12 * cluster + g});
+    }
+    for (Index f = 1; f < 12; ++f) edges.push_back({12 * cluster + f, 12 * cluster + f - 1});
+  }
+  conductances.assign(edges.size(), 1.);
+  for (Index cluster = 1; cluster < 4; ++cluster)
+    for (Index k = 0; k < 3; ++k) {
+      edges.push_back({12 * cluster + k, 12 * (cluster - 1) + 3 * k});
+      conductances.push_back(std::pow(10., -100. - k));
+    }
+  const Network network{Dual_graph(48, edges), conductances};
+  const std::vector<Index> seeds = {0, 40};
+  Star_mesh_elimination solver;
+  const Potentials potentials = networks::potentials(solver, network, seeds);
+  EXPECT_LE(largest_relative_error(potentials, dense_potentials<Exact>(network, seeds)), 1e-12);
+}
+
+TEST(StarMeshElimination, AgreesWithItselfOnEveryInstructionSet) {
+  // The three kernels share their source; a front larger than a tile and a block exercises all of their branches.
+  using namespace RW_segmentation::internal;
+  std::mt19937 random(3);
+  const std::size_t pivots = 75, rows = 61, size = pivots + rows;
+  const auto run = [&](auto eliminate) {
+    std::mt19937 numbers(4);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<double> panel(size * pivots), remainder(rows * rows, 0.), ground(size, 0.), sum(pivots),
+        transition(pivots * (pivots - 1) / 2 + pivots * rows), scaled(size * front_block),
+        packed(kernel::packed_size(size));
+    std::vector<std::uint32_t> absorbing(pivots, 0);
+    absorbing[10] = absorbing[50] = 1;
+    for (double& c : panel) c = uniform(numbers);
+    eliminate(Front{pivots, rows, panel.data(), remainder.data(), absorbing.data(), ground.data(), sum.data(),
+                    transition.data(), scaled.data(), packed.data()});
+    transition.insert(transition.end(), sum.begin(), sum.end());
+    for (std::size_t j = 0; j < rows; ++j)
+      for (std::size_t i = j + 1; i < rows; ++i) transition.push_back(remainder[j * rows + i]);
+    return transition;
+  };
+  const auto portable = run([](const Front& front) { eliminate(front, Instruction_set::portable); });
+  const auto best = run([](const Front& front) { eliminate(front, best_instruction_set()); });
+  for (std::size_t i = 0; i < portable.size(); ++i) ASSERT_NEAR(portable[i], best[i], 1e-13 * portable[i]) << i;
+}
+
+TEST(StarMeshElimination, FindsFacesThatNoSeedReaches) {
+  Network network{Dual_graph(6, {{0, 1}, {1, 2}, {3, 4}, {4, 5}, {2, 3}}), {1, 1, 1, 1, 0}};
+  Star_mesh_elimination solver;
+  const Potentials potentials = networks::potentials(solver, network, {0});
+  EXPECT_TRUE(solver.has_unreached_faces());
+  for (Eigen::Index f = 0; f < 6; ++f) EXPECT_EQ(potentials(f, 0), f < 3 ? 1 : 0);
+  std::vector<double> column;
+  EXPECT_THROW(solver.response(4, {0}, column), std::invalid_argument);
+  network.conductances.back() = 1e-300;
+  EXPECT_EQ(networks::potentials(solver, network, {0}).minCoeff(), 1);
+  EXPECT_FALSE(solver.has_unreached_faces());
+}
+
+TYPED_TEST(Walk_solver, AgreesWithADenseSolve) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 6; ++trial) {
+    Network network{trial % 2 ? random_graph(150, random) : triangulated_torus(9), {}};
+    network.conductances = spread_conductances(network.graph.number_of_edges(), 3, random);
+    const std::vector<Index> seeds = random_faces(network.graph, 11, random);
+    TypeParam solver;
+    const Potentials potentials = networks::potentials(solver, network, seeds);
+    const auto dense = dense_potentials<long double>(network, seeds);
+    for (std::size_t f = 0; f < dense.size(); ++f)
+      for (std::size_t l = 0; l < seeds.size(); ++l)
+        ASSERT_NEAR(potentials(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(l)),
+                    static_cast<double>(dense[f][l]), 1e-9);
+  }
+}
+
+TYPED_TEST(Walk_solver, AgreesWithWalksThatAreWalked) {
+  std::mt19937 random(6);
+  Network network{triangulated_torus(5), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 1, random);
+  const std::vector<Index> seeds = random_faces(network.graph, 3, random);
+  TypeParam solver;
+  const Potentials potentials = networks::potentials(solver, network, seeds);
+  for (const Index start : {Index(1), Index(17), Index(30)}) {
+    const std::size_t walks = 40000;
+    const std::vector<double> shares = walked_shares(network, seeds, start, walks, random);
+    for (std::size_t l = 0; l < seeds.size(); ++l)  // within four standard deviations
+      EXPECT_NEAR(potentials(start, static_cast<Eigen::Index>(l)), shares[l], 4 * 0.5 / std::sqrt(1. * walks));
+  }
+}
+
+TYPED_TEST(Walk_solver, GivesPotentialsInTheUnitIntervalThatAddUpToOne) {
+  std::mt19937 random(7);
+  Network network{triangulated_torus(30), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 4, random);
+  const std::vector<Index> seeds = random_faces(network.graph, 19, random);
+  TypeParam solver;
+  const Potentials potentials = networks::potentials(solver, network, seeds);
+  EXPECT_GE(potentials.minCoeff(), 0);
+  EXPECT_LE(potentials.maxCoeff(), 1 + 1e-14);
+  EXPECT_LE((potentials.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-8);
+}
+
+TYPED_TEST(Walk_solver, SatisfiesTheMaximumPrinciple) {
+  std::mt19937 random(8);
+  Network network{triangulated_torus(12), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 2, random);
+  const std::vector<Index> seeds = random_faces(network.graph, 3, random);
+  TypeParam solver;
+  const Potentials potentials = networks::potentials(solver, network, seeds);
+  for (Index f = 0; f < network.graph.number_of_faces(); ++f) {
+    if (std::find(seeds.begin(), seeds.end(), f) != seeds.end()) continue;
+    for (Eigen::Index l = 0; l < potentials.cols(); ++l) {
+      double low = 1, high = 0;
+      for (const auto& [next, edge] : network.graph.neighbours(f)) {
+        low = std::min(low, potentials(next, l));
+        high = std::max(high, potentials(next, l));
+      }
+      ASSERT_GE(potentials(f, l), low - 1e-9);
+      ASSERT_LE(potentials(f, l), high + 1e-9);
+    }
+  }
+}
+
+TYPED_TEST(Walk_solver, RespondsToACurrentBetweenFacesHeldAtGivenValues) {
+  // By definition: a unit current enters at the source, none anywhere else but at the faces that are held.
+  std::mt19937 random(9);
+  Network network{triangulated_torus(8), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 2, random);
+  const std::vector<Index> faces = random_faces(network.graph, 5, random);
+  const std::vector<Index> seeds(faces.begin(), faces.begin() + 3);
+  TypeParam solver;
+  solver.analyze(network.graph);
+  solver.factorize(network.conductances, seeds);
+  const std::vector<double> held = {0.5, 0, 2};
+  std::vector<double> a;
+  solver.response(faces[3], held, a);
+  for (Index f = 0; f < network.graph.number_of_faces(); ++f) {
+    double outflow = 0;
+    for (const auto& [next, edge] : network.graph.neighbours(f))
+      outflow += network.conductances[edge] * (a[f] - a[next]);
+    const auto seed = std::find(seeds.begin(), seeds.end(), f);
+    if (seed != seeds.end()) {
+      EXPECT_EQ(a[f], held[static_cast<std::size_t>(seed - seeds.begin())]);
+    } else {
+      EXPECT_NEAR(outflow, f == faces[3], 1e-9);
+    }
+  }
+}
+
+TYPED_TEST(Walk_solver, AbsorbsTheCurrentOfAFaceAsItsWalksEnd) {
+  std::mt19937 random(12);
+  for (int trial = 0; trial < 5; ++trial) {
+    Network network{trial % 2 ? random_graph(80, random) : triangulated_torus(9), {}};
+    network.conductances = spread_conductances(network.graph.number_of_edges(), 2, random);
+    const std::vector<Index> faces = random_faces(network.graph, 10, random);
+    const std::vector<Index> seeds(faces.begin(), faces.begin() + 7);
+    TypeParam solver;
+    const Potentials potentials = networks::potentials(solver, network, seeds);
+    for (std::size_t f = 7; f < 10; ++f) {
+      const std::vector<double> absorbed = solver.absorbed_currents(faces[f]);
+      for (std::size_t r = 0; r < seeds.size(); ++r)
+        EXPECT_NEAR(absorbed[r], potentials(faces[f], static_cast<Eigen::Index>(r)), 1e-9);
+    }
+  }
+}
+
+TYPED_TEST(Walk_solver, TakesSeveralFactorisationsAfterOneAnalysis) {
+  std::mt19937 random(10);
+  Network network{triangulated_torus(7), {}};
+  TypeParam solver;
+  solver.analyze(network.graph);
+  for (int trial = 0; trial < 3; ++trial) {
+    network.conductances = spread_conductances(network.graph.number_of_edges(), 1, random);
+    const std::vector<Index> seeds = random_faces(network.graph, 2, random);
+    solver.factorize(network.conductances, seeds);
+    Potentials result;
+    solver.potentials(Potentials::Identity(2, 2), result);
+    const auto dense = dense_potentials<double>(network, seeds);
+    for (std::size_t f = 0; f < dense.size(); ++f)
+      ASSERT_NEAR(result(static_cast<Eigen::Index>(f), 0), dense[f][0], 1e-9);
+  }
+}
+
+TYPED_TEST(Walk_solver, RefusesConductancesOfAnotherGraph) {
+  const Dual_graph path(3, {{0, 1}, {1, 2}});
+  TypeParam solver;
+  solver.analyze(path);
+  EXPECT_THROW(solver.factorize({1.}, {0}), std::invalid_argument);
+}
+
+TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {
+  std::mt19937 random(11);
+  Network network{triangulated_torus(40), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 60, random);
+  const std::vector<Index> seeds = random_faces(network.graph, 8, random);
+  Eigen_walk_solver<> cholesky;
+  EXPECT_THROW(networks::potentials(cholesky, network, seeds), std::runtime_error);
+  Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>> conjugate_gradient;
+  EXPECT_THROW(networks::potentials(conjugate_gradient, network, seeds), std::runtime_error);
+  Star_mesh_elimination star_mesh;
+  EXPECT_LE((networks::potentials(star_mesh, network, seeds).rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+}
