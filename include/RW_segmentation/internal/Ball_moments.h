@@ -1,0 +1,184 @@
+#ifndef RW_SEGMENTATION_INTERNAL_BALL_MOMENTS_H
+#define RW_SEGMENTATION_INTERNAL_BALL_MOMENTS_H
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace RW_segmentation::internal {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The signed solid angle of a triangle seen from the origin, positive if its corners are counterclockwise seen from
+/// beyond it (van Oosterom and Strackee 1983).
+inline double solid_angle(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& z) {
+  const double a = x.norm(), b = y.norm(), c = z.norm();
+  return 2 * std::atan2(x.dot(y.cross(z)), a * b * c + x.dot(y) * c + y.dot(z) * a + z.dot(x) * b);
+}
+
+inline Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  const Eigen::Matrix3d product = x * y.transpose();
+  return product + product.transpose();
+}
+
+/// Volume, first and second moments, about the centre, of what a solid and the unit ball round a point of its surface
+/// have in common: in closed form, from the triangles of the surface.
+///
+/// The centre is the origin 0, B the ball, D the solid, S the part of the unit sphere inside D. A function f that is
+/// homogeneous of degree k has div(f x) = (k + 3) f, so by Gauss, with the outward unit normal n of each triangle T and
+/// d = n.x on it,
+///
+///   (k + 3) Int_{B n D} f = sum_T d Int_{T n B} f + Int_S f        for f = 1, x, x x'.
+///
+/// The first part are cones over T n B with their tips in 0: tetrahedra where T lies in the ball, and cones over sectors
+/// of the disc in which the plane of T cuts B. The second part is again a boundary integral, along the arcs in which
+/// the planes of the triangles cut the sphere: with w = d n + rho c(t) on an arc, c' = n x c and rho^2 + d^2 = 1,
+///
+///   |S|               = angle of D in 0 - sum_T solid angle of T n B
+///   Int_S w           = -1/2 sum_arcs (n dt - d W),          W  = Int w dt
+///   Int_S (w w' - I/3) = -1/6 sum_arcs (n W' + W n' - 2 d WW), WW = Int w w' dt.
+class Ball_moments {
+ public:
+  /// \param angle the solid angle of D at the centre: 2 pi in the inside of a plane face
+  explicit Ball_moments(double angle) : area_(angle) {}
+
+  /// Adds a triangle that lies in the ball.
+  void add_inner_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    add_tetrahedron(a, b, c);
+    area_ -= solid_angle(a, b, c);
+  }
+
+  /// Adds the part in the ball of a triangle with the outward unit normal n, d = n.x on it. Returns for each of the sides
+  /// ab, bc, ca whether it meets the ball. A triangle without area has n = 0 and d = 0, and adds nothing.
+  std::array<bool, 3> add_cut_triangle(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& n,
+                                       double d);
+
+  /// Where the surface ends in the side from a to b of a triangle: continues it, from the part of the side in the ball,
+  /// straight along the rays from the centre. Cones with their tips in 0 have d = 0: only their arcs count.
+  void add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+  double volume() const { return cone_volume_ + area_ / 3; }
+  Eigen::Vector3d first() const { return cone_first_ + sphere_first_ / 4; }
+  Eigen::Matrix3d second() const {
+    return cone_second_ + (sphere_second_ + Eigen::Matrix3d::Identity() * (area_ / 3)) / 5;
+  }
+
+  /// The area of the unit sphere inside the solid.
+  double area_on_sphere() const { return area_; }
+
+ private:
+  /// The part of the line from a to b in the ball, as a + t (b - a) for t from `enter` to `leave`; empty if it lies
+  /// outside.
+  struct Chord {
+    double enter, leave;
+    bool empty() const { return !(enter < leave); }
+  };
+  static Chord chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const Eigen::Vector3d e = b - a;
+    const double ee = e.squaredNorm();
+    if (!(ee > 0)) return {1, 0};
+    const double middle = -a.dot(e) / ee, within = 1 - (a + middle * e).squaredNorm();
+    if (!(within > 0)) return {1, 0};
+    const double half = std::sqrt(within / ee);
+    return {std::max(middle - half, 0.), std::min(middle + half, 1.)};
+  }
+
+  void add_tetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const double six_volumes = a.dot(b.cross(c));
+    const Eigen::Vector3d s = a + b + c;
+    cone_volume_ += six_volumes / 6;
+    cone_first_ += six_volumes / 24 * s;
+    cone_second_ += six_volumes / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+  }
+
+  /// Sectors of one disc: integrals over their angles, of 1, c and c c'.
+  struct Sectors {
+    Eigen::Vector3d n;
+    double angle = 0;
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // sum of c1 - c0
+    Eigen::Matrix3d twist = Eigen::Matrix3d::Zero();  // sum of c1 (n x c1)' - c0 (n x c0)'
+
+    /// From the direction of x to that of y, both in the plane of the disc.
+    void add(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+      const Eigen::Vector3d c0 = x.normalized(), c1 = y.normalized();
+      angle += std::atan2(n.dot(c0.cross(c1)), c0.dot(c1));
+      turn += c1 - c0;
+      twist += c1 * n.cross(c1).transpose() - c0 * n.cross(c0).transpose();
+    }
+    Eigen::Vector3d first() const { return turn.cross(n); }  // c = -n x c'
+    Eigen::Matrix3d second() const {                         // (c c'')' = I - n n' - 2 c c', the prime in t
+      return (angle * (Eigen::Matrix3d::Identity() - n * n.transpose()) - twist) / 2;
+    }
+  };
+
+  /// The cones over sectors of the disc about d n with radius rho, and their solid angle.
+  void add_cones(const Sectors& sectors, double d, double rho) {
+    const Eigen::Vector3d& n = sectors.n;
+    const double area = rho * rho / 2 * sectors.angle;
+    const Eigen::Vector3d first = rho * rho * rho / 3 * sectors.first();  // about the centre of the disc
+    const Eigen::Matrix3d second = rho * rho * rho * rho / 4 * sectors.second();
+    cone_volume_ += d * area / 3;
+    cone_first_ += d * (first + d * area * n) / 4;
+    cone_second_ += d * (second + d * symmetric_product(n, first) + d * d * area * n * n.transpose()) / 5;
+    if (d != 0) area_ -= std::copysign(1 - std::abs(d), d) * sectors.angle;
+  }
+
+  /// The arcs of the same sectors.
+  void add_arcs(const Sectors& sectors, double d, double rho) {
+    const Eigen::Vector3d& n = sectors.n;
+    const Eigen::Vector3d c = sectors.first();
+    const Eigen::Vector3d w = d * sectors.angle * n + rho * c;
+    const Eigen::Matrix3d ww =
+        d * d * sectors.angle * n * n.transpose() + d * rho * symmetric_product(n, c) + rho * rho * sectors.second();
+    sphere_first_ -= (sectors.angle * n - d * w) / 2;
+    sphere_second_ -= (symmetric_product(n, w) - 2 * d * ww) / 6;
+  }
+
+  double cone_volume_ = 0;
+  Eigen::Vector3d cone_first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d cone_second_ = Eigen::Matrix3d::Zero();
+  double area_;
+  Eigen::Vector3d sphere_first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d sphere_second_ = Eigen::Matrix3d::Zero();  // without its trace
+};
+
+inline std::array<bool, 3> Ball_moments::add_cut_triangle(const std::array<Eigen::Vector3d, 3>& corner,
+                                                          const Eigen::Vector3d& n, double d) {
+  // Seen from the centre q of the disc, a side turns through sectors where it is outside, and sweeps a triangle inside.
+  std::array<bool, 3> meets{};
+  if (!(std::abs(d) < 1)) return meets;
+  const Eigen::Vector3d q = d * n;
+  const double rho = std::sqrt((1 - d) * (1 + d));
+  Sectors sectors{n};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d &a = corner[k], &b = corner[(k + 1) % 3];
+    const Chord inside = chord(a, b);
+    meets[k] = !inside.empty();
+    if (inside.empty()) {
+      sectors.add(a - q, b - q);
+      continue;
+    }
+    const Eigen::Vector3d x = a + inside.enter * (b - a), y = a + inside.leave * (b - a);
+    if (inside.enter > 0) sectors.add(a - q, x - q);
+    if (d != 0) add_inner_triangle(q, x, y);
+    if (inside.leave < 1) sectors.add(y - q, b - q);
+  }
+  add_cones(sectors, d, rho);
+  add_arcs(sectors, d, rho);
+  return meets;
+}
+
+inline void Ball_moments::add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Chord inside = chord(a, b);
+  const Eigen::Vector3d normal = a.cross(b);
+  if (inside.empty() || normal.isZero(0)) return;
+  Sectors sectors{normal.normalized()};
+  sectors.add(a + inside.enter * (b - a), a + inside.leave * (b - a));
+  add_arcs(sectors, 0, 1);
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

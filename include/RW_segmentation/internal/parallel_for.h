@@ -1,0 +1,63 @@
+#ifndef RW_SEGMENTATION_INTERNAL_PARALLEL_FOR_H
+#define RW_SEGMENTATION_INTERNAL_PARALLEL_FOR_H
+
+#include <RW_segmentation/Progress.h>
+
+#include <CGAL/tags.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace RW_segmentation::internal {
+
+/// Calls `worker(i)` for i = 0 .. `number` - 1, with a worker of its own for each thread, made by `make_worker()`.
+/// Reports progress from the calling thread.
+///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
+/// \throws Cancelled
+template <class ConcurrencyTag, class MakeWorker>
+void parallel_for(std::size_t number, const MakeWorker& make_worker, const Progress& progress) {
+  constexpr bool parallel = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
+#ifdef CGAL_LINKED_WITH_TBB
+  constexpr bool has_threads = parallel;
+#else
+  static_assert(!parallel, "CGAL::Parallel_tag needs TBB: link with it and define CGAL_LINKED_WITH_TBB.");
+  constexpr bool has_threads = false;
+#endif
+
+  constexpr std::size_t between_reports = 4096;
+  const auto in_stretches = [&](const auto& run) {
+    for (std::size_t begin = 0; begin < number; begin += between_reports) {
+      progress(static_cast<double>(begin) / static_cast<double>(number));
+      run(begin, std::min(begin + between_reports, number));
+    }
+    progress(1);
+  };
+  if constexpr (has_threads) {
+#ifdef CGAL_LINKED_WITH_TBB
+    tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
+    in_stretches([&](std::size_t begin, std::size_t end) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), [&](const auto& range) {
+        auto& worker = workers.local();
+        for (std::size_t i = range.begin(); i != range.end(); ++i) worker(i);
+      });
+    });
+#endif
+  } else {
+    auto worker = make_worker();
+    in_stretches([&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) worker(i);
+    });
+  }
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif
