@@ -51,6 +51,9 @@ struct Surface_curvatures {
   /// From the volume of the solid in the ball alone: a second estimate of the mean curvature. Where it is far from
   /// `mean_curvature()`, the surface is not smooth at the scale of the ball.
   double mean_curvature_by_volume = 0;
+  /// How high the smooth surface lies above the centre of the face, in the unit of the mesh: the height of chords, and
+  /// noise.
+  double offset = 0;
   Eigen::Vector3d max_direction = Eigen::Vector3d::Zero();  ///< unit vector, zero where nothing was measured
   Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();  ///< unit vector, zero where nothing was measured
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();         ///< outward, of the surface in the ball
@@ -75,6 +78,8 @@ namespace internal {
 /// Eigenvalues M1, M2 of the covariance, along the surface, are to third order (Pottmann et al. 2007)
 ///   M1 = 2 pi/15 - pi/48 (3 k1 + k2),   M2 = 2 pi/15 - pi/48 (k1 + 3 k2),   and the volume is 2 pi/3 - pi/4 H.
 inline Surface_curvatures curvatures_in_unit_ball(const Ball_moments& ball) {
+  constexpr double nothing = 1e-9;
+  if (!(std::abs(ball.volume()) > nothing)) return {};  // a closed surface in the ball that encloses nothing
   const Eigen::Vector3d barycentre = ball.first() / ball.volume();
   const Eigen::Matrix3d covariance = ball.second() - ball.first() * barycentre.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
@@ -85,10 +90,16 @@ inline Surface_curvatures curvatures_in_unit_ball(const Ball_moments& ball) {
   const Eigen::Index axis1 = normal == 0 ? 1 : 0, axis2 = normal == 2 ? 1 : 2;
   const double m1 = axes.eigenvalues()[axis1], m2 = axes.eigenvalues()[axis2];
 
+  const double k1 = 6 / pi * (m2 - 3 * m1) + 8. / 5, k2 = 6 / pi * (m1 - 3 * m2) + 8. / 5;
+  const double h = 4 / pi * (2 * pi / 3 - ball.volume());
+
+  // If the smooth surface lies z above the centre, k1 and k2 are too small by 3 z, h by 4 z.
+  constexpr double farthest = 0.1;
   Surface_curvatures result;
-  result.max_curvature = 6 / pi * (m2 - 3 * m1) + 8. / 5;
-  result.min_curvature = 6 / pi * (m1 - 3 * m2) + 8. / 5;
-  result.mean_curvature_by_volume = 4 / pi * (2 * pi / 3 - ball.volume());
+  result.offset = std::clamp((k1 + k2) / 2 - h, -farthest, farthest);
+  result.max_curvature = k1 + 3 * result.offset;
+  result.min_curvature = k2 + 3 * result.offset;
+  result.mean_curvature_by_volume = h;
   result.max_direction = axes.eigenvectors().col(axis1);
   result.min_direction = axes.eigenvectors().col(axis2);
   result.normal = axes.eigenvectors().col(normal);
@@ -144,6 +155,7 @@ std::vector<std::vector<Surface_curvatures>> curvatures_of_faces(const Dual_grap
     result.max_curvature /= radii[i];
     result.min_curvature /= radii[i];
     result.mean_curvature_by_volume /= radii[i];
+    result.offset *= radii[i];
     if (neighbourhood.meets_border()) ++counts[i].across_borders;
     if (!neighbourhood.leaves_face()) ++counts[i].inside_a_face;
     if (!neighbourhood.leaves_ball()) ++counts[i].round_everything;
@@ -200,6 +212,7 @@ std::vector<Curvature_report> integral_invariant_curvatures(
       value.max_curvature /= geometry.unit;
       value.min_curvature /= geometry.unit;
       value.mean_curvature_by_volume /= geometry.unit;
+      value.offset *= geometry.unit;
       put(map, graph.face_descriptors()[f], value);
     }
   }

@@ -59,31 +59,30 @@ class Ball_moments {
   /// straight along the rays from the centre. Cones with their tips in 0 have d = 0: only their arcs count.
   void add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-  double volume() const { return cone_volume_ + area_ / 3; }
+  double volume() const { return cone_volume_ + area_on_sphere() / 3; }
   Eigen::Vector3d first() const { return cone_first_ + sphere_first_ / 4; }
   Eigen::Matrix3d second() const {
-    return cone_second_ + (sphere_second_ + Eigen::Matrix3d::Identity() * (area_ / 3)) / 5;
+    return cone_second_ + (sphere_second_ + Eigen::Matrix3d::Identity() * (area_on_sphere() / 3)) / 5;
   }
 
-  /// The area of the unit sphere inside the solid.
-  double area_on_sphere() const { return area_; }
+  /// The area of the unit sphere inside the solid. Where the surface cuts itself round the centre, as noise makes it
+  /// do, the solid may lie there twice or less than not at all: known but for whole spheres, it is what is right.
+  double area_on_sphere() const {
+    constexpr double none = 1e-9;
+    return area_ - 4 * pi * std::floor((area_ + none) / (4 * pi));
+  }
 
  private:
-  /// The part of the line from a to b in the ball, as a + t (b - a) for t from `enter` to `leave`; empty if it lies
-  /// outside.
+  /// The part of the line from a to b in the ball, as a + t (b - a) for t from `enter` to `leave`.
   struct Chord {
     double enter, leave;
     bool empty() const { return !(enter < leave); }
   };
-  static Chord chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    const Eigen::Vector3d e = b - a;
-    const double ee = e.squaredNorm();
-    if (!(ee > 0)) return {1, 0};
-    const double middle = -a.dot(e) / ee, within = 1 - (a + middle * e).squaredNorm();
-    if (!(within > 0)) return {1, 0};
-    const double half = std::sqrt(within / ee);
-    return {std::max(middle - half, 0.), std::min(middle + half, 1.)};
-  }
+  static bool inside(const Eigen::Vector3d& x) { return x.squaredNorm() <= 1; }
+  static Chord chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+  /// Whether a triangle holds a point q of its plane.
+  static bool holds(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& n, const Eigen::Vector3d& q);
 
   void add_tetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const double six_volumes = a.dot(b.cross(c));
@@ -100,10 +99,11 @@ class Ball_moments {
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // sum of c1 - c0
     Eigen::Matrix3d twist = Eigen::Matrix3d::Zero();  // sum of c1 (n x c1)' - c0 (n x c0)'
 
-    /// From the direction of x to that of y, both in the plane of the disc.
-    void add(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
-      const Eigen::Vector3d c0 = x.normalized(), c1 = y.normalized();
-      angle += std::atan2(n.dot(c0.cross(c1)), c0.dot(c1));
+    /// Counterclockwise from the unit vector c0 to c1. A turn back by a rounding error is none.
+    void add(const Eigen::Vector3d& c0, const Eigen::Vector3d& c1) {
+      constexpr double rounding = 1e-9;
+      const double step = std::atan2(n.dot(c0.cross(c1)), c0.dot(c1));
+      angle += step < -rounding ? step + 2 * pi : step;
       turn += c1 - c0;
       twist += c1 * n.cross(c1).transpose() - c0 * n.cross(c0).transpose();
     }
@@ -144,38 +144,63 @@ class Ball_moments {
   Eigen::Matrix3d sphere_second_ = Eigen::Matrix3d::Zero();  // without its trace
 };
 
+inline Ball_moments::Chord Ball_moments::chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  // Whether an end lies in the ball is asked in the same way for all sides that meet there.
+  constexpr double touches = 1e-12;
+  const bool from_inside = inside(a), to_inside = inside(b);
+  if (from_inside && to_inside) return {0, 1};
+  const Eigen::Vector3d e = b - a;
+  const double ee = e.squaredNorm(), middle = -a.dot(e) / ee, within = 1 - (a + middle * e).squaredNorm();
+  const double half = std::sqrt(std::max(within, 0.) / ee);
+  if (from_inside) return {0, std::clamp(middle + half, 0., 1.)};
+  if (to_inside) return {std::clamp(middle - half, 0., 1.), 1};
+  if (!(within > touches && middle > 0 && middle < 1)) return {1, 0};
+  return {std::max(middle - half, 0.), std::min(middle + half, 1.)};
+}
+
 inline std::array<bool, 3> Ball_moments::add_cut_triangle(const std::array<Eigen::Vector3d, 3>& corner,
                                                           const Eigen::Vector3d& n, double d) {
-  // Seen from the centre q of the disc, a side turns through sectors where it is outside, and sweeps a triangle inside.
   std::array<bool, 3> meets{};
   if (!(std::abs(d) < 1)) return meets;
-  const Eigen::Vector3d q = d * n;
+  const Eigen::Vector3d q = d * n;  // the centre of the disc in which the plane cuts the ball
   const double rho = std::sqrt((1 - d) * (1 + d));
-  Sectors sectors{n};
+
+  // Round the triangle: triangles between q and the sides in the ball, and sectors between a point where the outline
+  // leaves the ball and the next one where it enters.
+  std::array<Eigen::Vector3d, 3> entry, exit;
+  std::size_t entries = 0, exits = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d &a = corner[k], &b = corner[(k + 1) % 3];
-    const Chord inside = chord(a, b);
-    meets[k] = !inside.empty();
-    if (inside.empty()) {
-      sectors.add(a - q, b - q);
-      continue;
-    }
-    const Eigen::Vector3d x = a + inside.enter * (b - a), y = a + inside.leave * (b - a);
-    if (inside.enter > 0) sectors.add(a - q, x - q);
+    const Chord in_ball = chord(a, b);
+    meets[k] = inside(a) || inside(b) || !in_ball.empty();
+    if (!meets[k]) continue;
+    const Eigen::Vector3d x = a + in_ball.enter * (b - a), y = a + in_ball.leave * (b - a);
+    if (!inside(a)) entry[entries++] = (x - q) / rho;
+    if (!inside(b)) exit[exits++] = (y - q) / rho;
     if (d != 0) add_inner_triangle(q, x, y);
-    if (inside.leave < 1) sectors.add(y - q, b - q);
   }
+  Sectors sectors{n};
+  const std::size_t shift = inside(corner[0]) ? 0 : 1;
+  for (std::size_t k = 0; k < exits; ++k) sectors.add(exit[k], entry[(k + shift) % entries]);
+  if (exits == 0 && holds(corner, n, q)) sectors.angle = 2 * pi;
   add_cones(sectors, d, rho);
   add_arcs(sectors, d, rho);
   return meets;
 }
 
+inline bool Ball_moments::holds(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& n,
+                                const Eigen::Vector3d& q) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(n.dot((corner[k] - q).cross(corner[(k + 1) % 3] - q)) > 0)) return false;
+  return true;
+}
+
 inline void Ball_moments::add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Chord inside = chord(a, b);
   const Eigen::Vector3d normal = a.cross(b);
-  if (inside.empty() || normal.isZero(0)) return;
+  const Chord in_ball = chord(a, b);
+  if (in_ball.empty() || normal.isZero(0)) return;
   Sectors sectors{normal.normalized()};
-  sectors.add(a + inside.enter * (b - a), a + inside.leave * (b - a));
+  sectors.add((a + in_ball.enter * (b - a)).normalized(), (a + in_ball.leave * (b - a)).normalized());
   add_arcs(sectors, 0, 1);
 }
 
