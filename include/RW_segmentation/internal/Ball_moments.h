@@ -11,12 +11,28 @@ namespace RW_segmentation::internal {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The signed solid angle of a triangle seen from the origin, positive if its corners are counterclockwise seen from
-/// beyond it (van Oosterom and Strackee 1983).
-inline double solid_angle(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& z) {
-  const double a = x.norm(), b = y.norm(), c = z.norm();
-  return 2 * std::atan2(x.dot(y.cross(z)), a * b * c + x.dot(y) * c + y.dot(z) * a + z.dot(x) * b);
-}
+/// A sum of signed solid angles of triangles seen from the origin, positive where the corners are counterclockwise seen
+/// from beyond; known up to multiples of 4 pi.
+///
+/// The tangent of half the solid angle of x, y, z is det(x, y, z) / (|x||y||z| + x.y |z| + y.z |x| + z.x |y|) (van Oosterom
+/// and Strackee 1983). Numerator and denominator are those of a complex number, and a product needs one arctangent.
+class Solid_angles {
+ public:
+  void add(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& z) {
+    const double a = x.norm(), b = y.norm(), c = z.norm();
+    const double im = x.dot(y.cross(z)), re = a * b * c + x.dot(y) * c + y.dot(z) * a + z.dot(x) * b;
+    const double product_re = re_ * re - im_ * im, product_im = re_ * im + im_ * re;
+    const double size = std::abs(product_re) + std::abs(product_im);
+    if (!(size > 0)) return;  // seen from one of its corners
+    const bool keep = size > 1e-100 && size < 1e100;
+    re_ = keep ? product_re : product_re / size;
+    im_ = keep ? product_im : product_im / size;
+  }
+  double sum() const { return 2 * std::atan2(im_, re_); }
+
+ private:
+  double re_ = 1, im_ = 0;
+};
 
 inline Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   const Eigen::Matrix3d product = x * y.transpose();
@@ -47,7 +63,7 @@ class Ball_moments {
   /// Adds a triangle that lies in the ball.
   void add_inner_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     add_tetrahedron(a, b, c);
-    area_ -= solid_angle(a, b, c);
+    solid_angles_.add(a, b, c);
   }
 
   /// Adds the part in the ball of a triangle with the outward unit normal n, d = n.x on it. Returns for each of the sides
@@ -69,7 +85,8 @@ class Ball_moments {
   /// do, the solid may lie there twice or less than not at all: known but for whole spheres, it is what is right.
   double area_on_sphere() const {
     constexpr double none = 1e-9;
-    return area_ - 4 * pi * std::floor((area_ + none) / (4 * pi));
+    const double area = area_ - solid_angles_.sum();
+    return area - 4 * pi * std::floor((area + none) / (4 * pi));
   }
 
  private:
@@ -113,33 +130,27 @@ class Ball_moments {
     }
   };
 
-  /// The cones over sectors of the disc about d n with radius rho, and their solid angle.
-  void add_cones(const Sectors& sectors, double d, double rho) {
-    const Eigen::Vector3d& n = sectors.n;
-    const double area = rho * rho / 2 * sectors.angle;
-    const Eigen::Vector3d first = rho * rho * rho / 3 * sectors.first();  // about the centre of the disc
-    const Eigen::Matrix3d second = rho * rho * rho * rho / 4 * sectors.second();
-    cone_volume_ += d * area / 3;
-    cone_first_ += d * (first + d * area * n) / 4;
-    cone_second_ += d * (second + d * symmetric_product(n, first) + d * d * area * n * n.transpose()) / 5;
-    if (d != 0) area_ -= std::copysign(1 - std::abs(d), d) * sectors.angle;
-  }
-
-  /// The arcs of the same sectors.
-  void add_arcs(const Sectors& sectors, double d, double rho) {
+  /// The cones over sectors of the disc about d n with radius rho, their solid angle, and the arcs of the sectors.
+  void add_sectors(const Sectors& sectors, double d, double rho) {
     const Eigen::Vector3d& n = sectors.n;
     const Eigen::Vector3d c = sectors.first();
-    const Eigen::Vector3d w = d * sectors.angle * n + rho * c;
-    const Eigen::Matrix3d ww =
-        d * d * sectors.angle * n * n.transpose() + d * rho * symmetric_product(n, c) + rho * rho * sectors.second();
-    sphere_first_ -= (sectors.angle * n - d * w) / 2;
-    sphere_second_ -= (symmetric_product(n, w) - 2 * d * ww) / 6;
+    const Eigen::Matrix3d cc = sectors.second(), nc = symmetric_product(n, c), nn = n * n.transpose();
+    const double angle = sectors.angle, d2 = d * d, rho2 = rho * rho, rho3 = rho2 * rho, area = rho2 / 2 * angle;
+    cone_volume_ += d * area / 3;
+    cone_first_ += d * (rho3 / 3 * c + d * area * n) / 4;
+    cone_second_ += d * (rho2 * rho2 / 4 * cc + d * rho3 / 3 * nc + d2 * area * nn) / 5;
+    if (d != 0) area_ -= std::copysign(1 - std::abs(d), d) * angle;
+
+    // With W = d angle n + rho c, WW = d^2 angle n n' + d rho (n c' + c n') + rho^2 c c'.
+    sphere_first_ -= (rho2 * angle * n - d * rho * c) / 2;
+    sphere_second_ -= (2 * d * rho2 * angle * nn + (1 - 2 * d2) * rho * nc - 2 * d * rho2 * cc) / 6;
   }
 
   double cone_volume_ = 0;
   Eigen::Vector3d cone_first_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d cone_second_ = Eigen::Matrix3d::Zero();
-  double area_;
+  double area_;  // on the sphere, but for the solid angles
+  Solid_angles solid_angles_;
   Eigen::Vector3d sphere_first_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d sphere_second_ = Eigen::Matrix3d::Zero();  // without its trace
 };
@@ -183,8 +194,7 @@ inline std::array<bool, 3> Ball_moments::add_cut_triangle(const std::array<Eigen
   const std::size_t shift = inside(corner[0]) ? 0 : 1;
   for (std::size_t k = 0; k < exits; ++k) sectors.add(exit[k], entry[(k + shift) % entries]);
   if (exits == 0 && holds(corner, n, q)) sectors.angle = 2 * pi;
-  add_cones(sectors, d, rho);
-  add_arcs(sectors, d, rho);
+  add_sectors(sectors, d, rho);
   return meets;
 }
 
@@ -201,7 +211,7 @@ inline void Ball_moments::add_border(const Eigen::Vector3d& a, const Eigen::Vect
   if (in_ball.empty() || normal.isZero(0)) return;
   Sectors sectors{normal.normalized()};
   sectors.add((a + in_ball.enter * (b - a)).normalized(), (a + in_ball.leave * (b - a)).normalized());
-  add_arcs(sectors, 0, 1);
+  add_sectors(sectors, 0, 1);
 }
 
 }  // namespace RW_segmentation::internal

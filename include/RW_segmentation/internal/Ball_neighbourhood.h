@@ -72,12 +72,12 @@ inline double Ball_neighbourhood::angle_at_centre(Index face) const {
   if (own_ == 1) return 2 * pi;
   // The triangles of a face that is not plane meet in its centre like the sides of a pyramid.
   const Eigen::Vector3d inward = -geometry_.normal[face];
-  double angle = 0;
+  Solid_angles angles;
   for (const Index i : queue_) {
     const auto& [centre, b, c] = surface_.triangle(i).corner;
-    angle += solid_angle(inward, c - centre, b - centre);
+    angles.add(inward, c - centre, b - centre);
   }
-  return angle;
+  return angles.sum();
 }
 
 inline Ball_moments Ball_neighbourhood::moments(Index face, double radius) {
