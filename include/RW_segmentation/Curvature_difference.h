@@ -1,0 +1,162 @@
+#ifndef RW_SEGMENTATION_CURVATURE_DIFFERENCE_H
+#define RW_SEGMENTATION_CURVATURE_DIFFERENCE_H
+
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/integral_invariant_curvatures.h>
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/Edge_values.h>
+#include <RW_segmentation/internal/Face_geometry.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace RW_segmentation {
+namespace internal {
+
+/// The square of the mean of sqrt(d), edges weighted with their lengths: a mean that few large values hardly move.
+///
+/// If d is 1 on most edges and D on a fraction q, the arithmetic mean is near 1 + q D, this near (1 + q sqrt(D))^2. It
+/// vanishes only where all d do; a median or a trimmed mean would do so on any solid of planes.
+inline double robust_mean(const std::vector<double>& d, const std::vector<double>& edge_length) {
+  double sum = 0, length = 0;
+  for (std::size_t e = 0; e < d.size(); ++e) {
+    sum += edge_length[e] * std::sqrt(d[e]);
+    length += edge_length[e];
+  }
+  const double mean = length > 0 ? sum / length : 0;
+  return mean * mean;
+}
+
+/// The core of `Curvature_difference`: Eq. 7 and 8 for curvatures in the order of the faces, in the unit of the
+/// geometry; values in the order of the edges.
+inline std::vector<double> curvature_difference(const Dual_graph& graph, const Face_geometry& geometry,
+                                                const std::vector<Surface_curvatures>& curvatures) {
+  const std::size_t edges = graph.number_of_edges();
+  // Below this angle in an edge's length a surface is flat, and its curvatures are the rounding of coordinates.
+  const double edge = std::max(geometry.mean_edge_length(), 1e-12);
+  const double flat = std::max(1e-6, 2 * geometry.rounding / edge);
+
+  std::vector<double> d2(edges), d3(edges);
+  for (std::size_t e = 0; e < edges; ++e) {
+    const auto [i, j] = graph.faces_of(static_cast<Dual_graph::Index>(e));
+    if (geometry.normal[i].isZero(0) || geometry.normal[j].isZero(0)) continue;
+    d2[e] = std::abs(curvatures[i].gaussian_curvature() - curvatures[j].gaussian_curvature());
+    d3[e] = std::abs(curvatures[i].mean_curvature() - curvatures[j].mean_curvature());
+  }
+
+  constexpr double convex_weight = 1;
+  std::vector<double> d =
+      dihedral_difference(graph, geometry, geometry.normal, convex_weight, Dihedral_measure::one_minus_cosine);
+  const auto raise = [&](const std::vector<double>& term, double smallest_mean) {
+    const double mean = robust_mean(term, geometry.edge_length);
+    if (!(mean > smallest_mean)) return;
+    for (std::size_t e = 0; e < edges; ++e) d[e] = std::max(d[e], term[e] / mean);
+  };
+  raise(d2, flat / (edge * edge));
+  raise(d3, flat / edge);
+  return d;
+}
+
+/// A face map of curvatures, in the order of the faces and the unit of the geometry.
+/// \throws std::invalid_argument if a curvature is not finite, naming the face by its number
+template <class FaceListGraph, class CurvatureMap>
+std::vector<Surface_curvatures> read_curvatures(const Mesh_dual_graph<FaceListGraph>& graph,
+                                                const Face_geometry& geometry, const CurvatureMap& map) {
+  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  static_assert(is_readable_map<CurvatureMap, face_descriptor>,
+                "A readable property map from the mesh's face_descriptor to Surface_curvatures is needed here.");
+  std::vector<Surface_curvatures> curvatures;
+  curvatures.reserve(graph.number_of_faces());
+  for (const face_descriptor f : graph.face_descriptors()) {
+    Surface_curvatures value = get(map, f);
+    value.max_curvature *= geometry.unit;
+    value.min_curvature *= geometry.unit;
+    if (!std::isfinite(value.gaussian_curvature()))
+      throw argument_error(("the curvature of face " + std::to_string(curvatures.size())).c_str(),
+                           value.gaussian_curvature(), "finite");
+    curvatures.push_back(value);
+  }
+  return curvatures;
+}
+
+}  // namespace internal
+
+/// The difference of two faces for engineering models (Eq. 7 and 8): the largest of
+///
+///   d1 = 1 - cos theta between their normals, on convex edges as on concave ones,
+///   d2 = |K - K'| of the Gaussian curvatures,
+///   d3 = |H - H'| of the mean curvatures,
+///
+/// each divided by its mean over all interior edges. d1 finds sharp edges, d2 and d3 smooth joints, such as the one
+/// between a plane and the fillet beside it. A term whose mean vanishes is left out, as d2 and d3 on a plane.
+///
+/// The mean of d1 is the arithmetic one, as in `Dihedral_difference`. At a crease d3 exceeds that of smooth joints ten
+/// times and d2 a hundred times: in an arithmetic mean one crease would hide all joints. The means of d2 and d3 are
+/// squares of the mean of square roots, weighted with the edges' lengths.
+///
+/// A readable property map from `edge_descriptor` to `double`, computed once in the constructor. Copies share the
+/// values; looking one up is O(1) and safe from several threads. 0 on border edges and beside faces without area.
+///
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
+template <class FaceListGraph>
+class Curvature_difference : public internal::Shared_edge_values<FaceListGraph> {
+ public:
+  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
+
+  /// The difference by curvatures that are measured in balls of a radius, see `integral_invariant_curvatures()`.
+  ///
+  /// \tparam NamedParameters a sequence of CGAL's named parameters
+  /// \param mesh the mesh, its faces oriented outward; no reference to it is kept
+  /// \param radius of the balls: as small as noise and triangles allow, as joints blur to twice this width
+  /// \param np `vertex_point_map` (default: that of the mesh), `callback` (`std::function<bool(double)>`, default: none)
+  /// \throws std::invalid_argument if the radius is not positive or a coordinate is not finite (names the vertex)
+  /// \throws Cancelled
+  template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+  explicit Curvature_difference(const FaceListGraph& mesh, Ball_radius radius = Ball_radius::in_edge_lengths(3),
+                                const NamedParameters& np = CGAL::parameters::default_values())
+      : Base(computed(mesh, np, [&](const auto& graph, const auto& geometry) {
+          const internal::Triangulated_faces surface(mesh, graph, geometry, np);
+          std::vector<Curvature_report> reports;
+          return internal::curvatures_of_faces<CGAL::Parallel_if_available_tag>(graph, geometry, surface,
+                                                                                {internal::length_of(radius, geometry)},
+                                                                                reports, internal::progress_of(np))
+              .front();
+        })) {}
+
+  /// The difference by given curvatures. Complexity: linear.
+  ///
+  /// \tparam CurvatureMap a readable property map from `face_descriptor` to `Surface_curvatures`
+  /// \tparam NamedParameters a sequence of CGAL's named parameters
+  /// \param mesh the mesh; no reference to it is kept
+  /// \param curvatures the faces' principal curvatures
+  /// \param np `vertex_point_map` (default: that of the mesh)
+  /// \throws std::invalid_argument if a curvature or a coordinate is not finite
+  template <class CurvatureMap, class NamedParameters = CGAL::parameters::Default_named_parameters,
+            std::enable_if_t<!std::is_same_v<CurvatureMap, Ball_radius>, int> = 0>
+  explicit Curvature_difference(const FaceListGraph& mesh, const CurvatureMap& curvatures,
+                                const NamedParameters& np = CGAL::parameters::default_values())
+      : Base(computed(mesh, np, [&](const auto& graph, const auto& geometry) {
+          return internal::read_curvatures(graph, geometry, curvatures);
+        })) {}
+
+ private:
+  using Base = internal::Shared_edge_values<FaceListGraph>;
+
+  template <class NamedParameters, class Curvatures>
+  static Base computed(const FaceListGraph& mesh, const NamedParameters& np, const Curvatures& curvatures) {
+    const Mesh_dual_graph<FaceListGraph> graph(mesh);
+    const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
+    return Base(graph, internal::curvature_difference(graph, geometry, curvatures(graph, geometry)));
+  }
+};
+
+}  // namespace RW_segmentation
+
+#endif
