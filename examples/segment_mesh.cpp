@@ -37,6 +37,7 @@ void say(const std::string& message) { std::fprintf(stderr, "segment_mesh: %s\n"
 void say_what_is_odd(const Segmentation& result) {
   if (result.degenerate_faces > 0)
     say(counted(result.degenerate_faces, "face") + " without area, joined to the neighbours");
+  if (result.has_heavy_noise) say("much noise: the shape was taken from a smoothed copy of the mesh");
   if (result.unseeded_components > 0)
     say(counted(result.unseeded_components, "component") + " without a seed, each a segment of its own");
   if (result.island_faces > 0)

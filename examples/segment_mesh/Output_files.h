@@ -105,6 +105,7 @@ Json report_of(const Options& options, const mesh_files::Polygon_soup& soup, con
                  {"degenerate_faces", result.degenerate_faces},
                  {"unseeded_components", result.unseeded_components},
                  {"island_faces", result.island_faces},
+                 {"heavy_noise", result.has_heavy_noise},
                  {"seeds", result.seeds},
                  {"parameters",
                   {{"smoothing", policy.smoothing.radius},

@@ -40,6 +40,7 @@ struct Segmentation {
   std::vector<std::size_t> seed_labels;            ///< in ascending order
   std::vector<std::vector<double>> probabilities;  ///< for each of them and each face, if asked for
   std::size_t seeds = 0, unseeded_components = 0, island_faces = 0, degenerate_faces = 0;
+  bool has_heavy_noise = false;
   RW_segmentation::Merge_tree tree;   ///< empty unless fragments were merged
   std::vector<std::size_t> fragment;  ///< of each face, likewise
 };
@@ -157,6 +158,7 @@ Segmentation segment_automatically(const Mesh& mesh, const std::vector<Face_labe
   result.seeds = hierarchy.report().seeds;
   result.island_faces = hierarchy.report().island_faces;
   result.degenerate_faces = hierarchy.report().degenerate_faces;
+  result.has_heavy_noise = hierarchy.report().has_heavy_noise;
   result.tree = hierarchy;
   return result;
 }

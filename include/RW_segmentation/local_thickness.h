@@ -110,8 +110,9 @@ std::size_t local_thickness(const FaceListGraph& mesh, ThicknessMap thickness, c
   internal::require_thickness_numbers(sampling);
 
   const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-  const internal::Triangle_tree tree(internal::fan_triangles(mesh, graph, geometry, np));
+  const internal::Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
+  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, point);
+  const internal::Triangle_tree tree(internal::fan_triangles(mesh, graph, point));
   const std::vector<double> measured =
       internal::thickness_of_faces(geometry, tree, sampling, internal::progress_of(np));
   std::size_t faces_measured = 0;

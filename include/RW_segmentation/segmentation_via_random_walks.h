@@ -28,6 +28,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct Automatic_segmentation {
   Normal_smoothing smoothing;                     ///< of the normals, see `smoothed_face_normals()`
   double convex_weight = 0;                       ///< of the difference, see `Dihedral_difference`
   Dihedral_measure measure = Dihedral_measure::angle;
+  /// Differences up to so many times the mean count as none and larger ones lose it: sqrt(d^2 - x^2).
+  double ordinary_difference = 1;
   double sigma = 1;        ///< of the conductance, see `Conductance`
   double cap = 20;         ///< of the conductance
   std::size_t seeds = 40;  ///< for each mesh, and one more for each further connected component
@@ -73,9 +76,10 @@ struct Paper_segmentation {
   Normal_smoothing smoothing = {0, 0.1, 4};       ///< none
   double convex_weight = 0.2;                     ///< of the difference, see `Dihedral_difference`
   Dihedral_measure measure = Dihedral_measure::one_minus_cosine;
-  double sigma = 1;        ///< of the conductance, see `Conductance`
-  double cap = 20;         ///< of the conductance
-  std::size_t seeds = 60;  ///< for each mesh, and one more for each further connected component
+  double ordinary_difference = 0;  ///< every difference counts
+  double sigma = 1;                ///< of the conductance, see `Conductance`
+  double cap = 20;                 ///< of the conductance
+  std::size_t seeds = 60;          ///< for each mesh, and one more for each further connected component
   Farthest_point_sampling sampling;
 
   /// The number of segments to stop at.
@@ -91,6 +95,7 @@ struct Segmentation_report {
   std::size_t fragments = 0;         ///< before merging
   std::size_t degenerate_faces = 0;  ///< faces without area
   std::size_t island_faces = 0;      ///< faces that the walk left apart from their fragment, moved to a neighbour
+  bool has_heavy_noise = false;      ///< the vertices were smoothed to see the shape, see `Normal_smoothing`
 
   /// In the order in which they happen.
   struct Stage {
@@ -133,6 +138,21 @@ class Stage_clock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// What the difference has in excess of an ordinary one: sqrt(d^2 - ordinary^2), or 0, divided by its mean. Slight
+/// concavities are everywhere on a living shape and tell nothing about where its parts meet.
+inline std::vector<double> excess(std::vector<double> difference, double ordinary) {
+  if (ordinary == 0) return difference;
+  double sum = 0;
+  for (double& d : difference) {
+    d = d > ordinary ? std::sqrt(d * d - ordinary * ordinary) : 0;
+    sum += d;
+  }
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(difference.size(), 1));
+  if (mean > 0)
+    for (double& d : difference) d /= mean;
+  return difference;
+}
+
 /// Faces from which walks make the fragments: those of the policy, spread away from the given ones, and the given ones.
 template <class Policy>
 std::vector<Dual_graph::Index> fragment_seeds(const Dual_graph& graph, const Face_geometry& geometry,
@@ -168,13 +188,13 @@ inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, const st
 /// Merges fragments as `Automatic_segmentation` says.
 template <class FaceListGraph, class NamedParameters>
 Merge_tree merge_by_policy(const Automatic_segmentation& policy, const FaceListGraph& mesh,
-                           const Mesh_dual_graph<FaceListGraph>& graph, const Face_geometry& geometry,
+                           const Mesh_dual_graph<FaceListGraph>& graph,
+                           const Unit_box_points<FaceListGraph, NamedParameters>& point, const Face_geometry& geometry,
                            const std::vector<double>& difference, const std::vector<std::size_t>& fragment_of_face,
-                           std::size_t fragments, const NamedParameters& np, const Progress& progress,
-                           Stage_clock& clock) {
+                           std::size_t fragments, const Progress& progress, Stage_clock& clock) {
   std::vector<double> thickness;
   if (policy.thickness.samples > 0) {
-    const Triangle_tree tree(fan_triangles(mesh, graph, geometry, np));
+    const Triangle_tree tree(fan_triangles(mesh, graph, point));
     thickness = thickness_of_faces(geometry, tree, policy.thickness, progress.part(0, 0.9));
   }
   clock.note("thickness");
@@ -188,9 +208,9 @@ Merge_tree merge_by_policy(const Automatic_segmentation& policy, const FaceListG
 /// Merges fragments as `Paper_segmentation` says.
 template <class FaceListGraph, class NamedParameters>
 Merge_tree merge_by_policy(const Paper_segmentation&, const FaceListGraph&, const Mesh_dual_graph<FaceListGraph>& graph,
-                           const Face_geometry& geometry, const std::vector<double>& difference,
-                           const std::vector<std::size_t>& fragment_of_face, std::size_t fragments,
-                           const NamedParameters&, const Progress& progress, Stage_clock&) {
+                           const Unit_box_points<FaceListGraph, NamedParameters>&, const Face_geometry& geometry,
+                           const std::vector<double>& difference, const std::vector<std::size_t>& fragment_of_face,
+                           std::size_t fragments, const Progress& progress, Stage_clock&) {
   return merge_fragments(graph, fragment_of_face, std::vector<Relative_boundary_cost::Region>(fragments),
                          geometry.edge_length, difference, region_unit(geometry), Relative_boundary_cost(), progress);
 }
@@ -209,21 +229,26 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
     const FaceListGraph& mesh, const Policy& policy = Policy(), const SeedRange& given_seeds = {},
     const NamedParameters& np = CGAL::parameters::default_values()) {
   if (policy.seeds == 0) throw internal::argument_error("seeds", policy.seeds, "at least 1");
+  if (!(policy.ordinary_difference >= 0))
+    throw internal::argument_error("ordinary_difference", policy.ordinary_difference, "at least 0");
   const Progress progress = internal::progress_of(np);
   Segmentation_report report;
   internal::Stage_clock clock(report.stages);
 
   const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
+  internal::Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
+  internal::Face_geometry geometry = internal::face_geometry(mesh, graph, point);
   const std::vector<Dual_graph::Index> given = internal::read_seeds(graph, given_seeds);
   if (graph.number_of_faces() == 0) return {};
   clock.note("mesh");
 
-  const std::vector<Eigen::Vector3d> normals =
-      internal::smooth_normals(graph, geometry, policy.smoothing, progress.part(0, 0.3));
+  std::vector<Eigen::Vector3d> normals;
+  std::tie(normals, report.has_heavy_noise) =
+      internal::smooth_normals_and_vertices(mesh, graph, point, geometry, policy.smoothing, progress.part(0, 0.3));
   clock.note("normals");
-  const std::vector<double> difference =  // Eq. 4-5
-      internal::dihedral_difference(graph, geometry, normals, policy.convex_weight, policy.measure);
+  const std::vector<double> difference = internal::excess(  // Eq. 4-5
+      internal::dihedral_difference(graph, geometry, normals, policy.convex_weight, policy.measure),
+      policy.ordinary_difference);
   std::vector<double> conductances =  // Eq. 6
       internal::conductances(geometry.edge_length, difference, policy.sigma, policy.cap);
   internal::cut_constrained_edges(graph, np, conductances);
@@ -241,8 +266,8 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   report.seeds = seeds.size();
   report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
   report.degenerate_faces = geometry.degenerate_faces;
-  Merge_tree tree = internal::merge_by_policy(policy, mesh, graph, geometry, difference, fragment_of_face,
-                                              report.fragments, np, progress.part(0.8, 1), clock);
+  Merge_tree tree = internal::merge_by_policy(policy, mesh, graph, point, geometry, difference, fragment_of_face,
+                                              report.fragments, progress.part(0.8, 1), clock);
   clock.note("merging");
   progress(1);
   return {{std::move(tree), graph.face_descriptors(), std::move(fragment_of_face)}, std::move(report)};

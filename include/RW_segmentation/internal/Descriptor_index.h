@@ -18,7 +18,7 @@ struct Has_integer : std::false_type {};
 template <class Descriptor>
 struct Has_integer<Descriptor, std::void_t<decltype(std::declval<const Descriptor&>().idx())>> : std::true_type {};
 
-/// A value for each face or edge of a mesh: an array where descriptors hold an integer (`Surface_mesh`, OpenMesh), a
+/// A value for each vertex, edge or face of a mesh: an array where descriptors hold an integer (`Surface_mesh`, OpenMesh), a
 /// hash table where they are handles (`Polyhedron_3`).
 ///
 /// Ids stored in the mesh are not used: they may be missing, not initialised, or leave gaps after a removal.
@@ -59,7 +59,7 @@ class Descriptor_table {
   Value absent_;
 };
 
-/// Numbers 0, 1, ... for the faces or edges of a mesh.
+/// Numbers 0, 1, ... for the vertices, edges or faces of a mesh.
 template <class Descriptor>
 class Descriptor_index : public Descriptor_table<Descriptor, std::uint32_t> {
  public:

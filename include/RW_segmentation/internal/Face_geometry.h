@@ -2,8 +2,10 @@
 #define RW_SEGMENTATION_INTERNAL_FACE_GEOMETRY_H
 
 #include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/internal/Descriptor_index.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/number_utils.h>
 
@@ -13,8 +15,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -92,7 +96,13 @@ class Unit_box_points {
     rounding_ = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * scale_);
   }
 
-  Eigen::Vector3d operator()(vertex_descriptor v) const { return (point_(v) - origin_) * scale_; }
+  Eigen::Vector3d operator()(vertex_descriptor v) const {
+    return smoothed_ ? (*smoothed_)[v] : Eigen::Vector3d((point_(v) - origin_) * scale_);
+  }
+
+  /// Moves each vertex off the border half-way to the mean of its neighbours, several times, all at once. The mesh
+  /// itself does not change.
+  void smooth(const FaceListGraph& mesh, int steps);
 
   double unit() const { return unit_; }
   const Eigen::Vector3d& origin() const { return origin_; }
@@ -105,7 +115,49 @@ class Unit_box_points {
   double unit_ = 1;
   double scale_ = 1;
   double rounding_ = 0;
+  std::optional<Descriptor_table<vertex_descriptor, Eigen::Vector3d>> smoothed_;
 };
+
+template <class FaceListGraph, class NamedParameters>
+void Unit_box_points<FaceListGraph, NamedParameters>::smooth(const FaceListGraph& mesh, int steps) {
+  using Index = typename Descriptor_index<vertex_descriptor>::Index;
+  Descriptor_index<vertex_descriptor> index;
+  std::vector<Eigen::Vector3d> position;
+  for (const vertex_descriptor v : vertices(mesh)) {
+    if (halfedge(v, mesh) == boost::graph_traits<FaceListGraph>::null_halfedge()) continue;
+    index.insert(v, static_cast<Index>(position.size()));
+    position.push_back((*this)(v));
+  }
+
+  std::vector<std::pair<Index, Index>> edge_ends;
+  std::vector<double> degree(position.size(), 0.);
+  std::vector<char> is_on_border(position.size(), false);
+  for (const auto e : edges(mesh)) {
+    const Index a = index[source(e, mesh)], b = index[target(e, mesh)];
+    edge_ends.emplace_back(a, b);
+    for (const Index v : {a, b}) {
+      ++degree[v];
+      if (CGAL::is_border(e, mesh)) is_on_border[v] = true;
+    }
+  }
+
+  std::vector<Eigen::Vector3d> sum(position.size());
+  for (int step = 0; step < steps; ++step) {
+    std::fill(sum.begin(), sum.end(), Eigen::Vector3d::Zero());
+    for (const auto& [a, b] : edge_ends) {
+      sum[a] += position[b];
+      sum[b] += position[a];
+    }
+    for (std::size_t v = 0; v < position.size(); ++v)
+      if (!is_on_border[v]) position[v] = (position[v] + sum[v] / degree[v]) / 2;
+  }
+
+  Descriptor_table<vertex_descriptor, Eigen::Vector3d> smoothed(Eigen::Vector3d::Zero());
+  smoothed.reserve(position.size());
+  for (const vertex_descriptor v : vertices(mesh))
+    if (index[v] != index.none) smoothed.insert(v, position[index[v]]);
+  smoothed_ = std::move(smoothed);
+}
 
 /// The lengths of the interior edges of `graph`, the dual of `mesh`.
 template <class FaceListGraph, class NamedParameters>
@@ -121,11 +173,9 @@ std::vector<double> edge_lengths(const FaceListGraph& mesh, const Mesh_dual_grap
 }
 
 /// Measures the faces and interior edges of `graph`, the dual of `mesh`.
-/// \throws std::invalid_argument if a coordinate of a face's corner is not finite
 template <class FaceListGraph, class NamedParameters>
 Face_geometry face_geometry(const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
-                            const NamedParameters& np) {
-  const Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
+                            const Unit_box_points<FaceListGraph, NamedParameters>& point) {
   Face_geometry geometry;
   geometry.unit = point.unit();
   geometry.origin = point.origin();
@@ -159,6 +209,13 @@ Face_geometry face_geometry(const FaceListGraph& mesh, const Mesh_dual_graph<Fac
   }
   geometry.edge_length = edge_lengths(mesh, graph, point);
   return geometry;
+}
+
+/// \throws std::invalid_argument if a coordinate of a face's corner is not finite
+template <class FaceListGraph, class NamedParameters>
+Face_geometry face_geometry(const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
+                            const NamedParameters& np) {
+  return face_geometry(mesh, graph, Unit_box_points<FaceListGraph, NamedParameters>(mesh, np));
 }
 
 }  // namespace RW_segmentation::internal

@@ -26,18 +26,16 @@ struct Fan_triangle {
 /// The faces of a mesh as triangles.
 template <class FaceListGraph, class NamedParameters>
 std::vector<Fan_triangle> fan_triangles(const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
-                                        const Face_geometry& geometry, const NamedParameters& np) {
-  const Vertex_points<FaceListGraph, NamedParameters> point(mesh, np);
-  const auto scaled = [&](auto v) -> Eigen::Vector3d { return (point(v) - geometry.origin) / geometry.unit; };
+                                        const Unit_box_points<FaceListGraph, NamedParameters>& point) {
   std::vector<Fan_triangle> triangles;
   triangles.reserve(graph.number_of_faces());
   for (Dual_graph::Index f = 0; f < graph.number_of_faces(); ++f) {
     const auto last = halfedge(graph.face(f), mesh);
-    const Eigen::Vector3d corner = scaled(target(last, mesh));
+    const Eigen::Vector3d corner = point(target(last, mesh));
     auto h = next(last, mesh);
-    Eigen::Vector3d side = scaled(target(h, mesh)) - corner;
+    Eigen::Vector3d side = point(target(h, mesh)) - corner;
     for (h = next(h, mesh); h != last; h = next(h, mesh)) {
-      const Eigen::Vector3d next_side = scaled(target(h, mesh)) - corner;
+      const Eigen::Vector3d next_side = point(target(h, mesh)) - corner;
       triangles.push_back({corner, side, next_side, f});
       side = next_side;
     }
