@@ -9,6 +9,8 @@
 #include <RW_segmentation/internal/Surface_refinement.h>
 #include <RW_segmentation/internal/Triangle_surface.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -59,20 +61,32 @@ class Boundary_smoother {
   static constexpr std::size_t most_attempts = 3;
   static constexpr double snap = 0.02;  ///< of an edge
 
-  /// The edges of a chain that lie on a crease: at least three sharp ones in a row. A boundary that zigzags over the
-  /// ribs of a coarse mesh meets sharp edges, too, but one at a time.
+  /// The edges of a chain that lie on a crease: sharp ones, several in a row that do not turn much. A boundary that
+  /// zigzags over the ribs of a coarse mesh meets sharp edges, too, but turns from one to the next.
   std::vector<char> creases(const Boundary_chain& chain, const std::vector<char>& is_sharp) const {
     constexpr std::size_t least_run = 3;
+    constexpr double least_cosine = 0.9;  // of about 25 degrees
     const std::size_t size = chain.halfedges.size();
-    std::vector<char> result(size, false);
-    // Begin where a run of a closed chain begins.
+    const auto direction = [&](std::size_t i) {
+      const Index h = chain.halfedges[i % size];
+      return Eigen::Vector3d(
+          (surface_.point(surface_.target(h)) - surface_.point(surface_.source(h))).stableNormalized());
+    };
+    const auto goes_on = [&](std::size_t i) {  // from an edge to the next
+      return is_sharp[chain.halfedges[i % size]] && is_sharp[chain.halfedges[(i + 1) % size]] &&
+             direction(i).dot(direction(i + 1)) > least_cosine;
+    };
+    // A run of a closed chain may pass its end.
     std::size_t first = 0;
-    while (chain.is_closed && first < size && is_sharp[chain.halfedges[first]]) ++first;
+    if (chain.is_closed)
+      while (first < size && goes_on(first + size - 1)) ++first;
+    std::vector<char> result(size, false);
     for (std::size_t k = 0; k < size;) {
-      std::size_t run = 0;
-      while (k + run < size && is_sharp[chain.halfedges[(first + k + run) % size]]) ++run;
-      for (std::size_t i = k; i < k + run; ++i) result[(first + i) % size] = run >= std::min(least_run, size);
-      k += run + 1;
+      std::size_t run = 1;
+      while (k + run < size && goes_on(first + k + run - 1)) ++run;
+      const bool is_crease = is_sharp[chain.halfedges[(first + k) % size]] && run >= std::min(least_run, size);
+      for (std::size_t i = k; i < k + run; ++i) result[(first + i) % size] = is_crease;
+      k += run;
     }
     return result;
   }

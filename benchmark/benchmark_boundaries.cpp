@@ -1,0 +1,240 @@
+// How smooth, how true and how fast the boundaries of segments become.
+
+#include "../test/solids.h"
+#include "boundary_measures.h"
+#include "measurement.h"
+
+#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smooth_boundaries.h>
+#include <RW_segmentation/split_along_boundaries.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace RW_segmentation;
+using namespace measurement;
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> meshes, data_meshes = {"hand", "elephant", "bear", "fandisk"};
+  std::size_t repeats = 3;
+  double edge_length = 0.1;  // of the solids
+  double noise = 0.3;        // percent of the diagonal
+};
+
+/// The numbers for parts of machines: convex creases count like concave ones, and noise is not expected.
+Automatic_segmentation for_machines() {
+  Automatic_segmentation policy;
+  policy.convex_weight = 1;
+  policy.smoothing.radius = 0;
+  policy.thickness.samples = 0;
+  return policy;
+}
+
+/// A mesh whose boundaries were smoothed and cut in, and what that took.
+struct Refined {
+  Mesh mesh;
+  Labels label;
+  Split_report report;
+  std::size_t curves = 0, curves_left = 0;
+  double smooth_ms = 0, split_ms = 0;
+};
+
+Refined refine(const Mesh& mesh, std::size_t repeats) {
+  std::vector<double> smooth_ms, split_ms;
+  Refined result;
+  for (std::size_t i = 0; i < repeats; ++i) {
+    result = {};
+    result.mesh = mesh;
+    result.label = result.mesh.property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+    const Stopwatch smoothing;
+    const auto curves = smooth_boundaries(result.mesh, result.label);
+    smooth_ms.push_back(smoothing.milliseconds());
+    const Stopwatch splitting;
+    result.report = split_along_boundaries(result.mesh, curves, result.label);
+    split_ms.push_back(splitting.milliseconds());
+    result.curves = curves.size();
+    for (const auto& curve : curves) result.curves_left += !curve.is_smoothed;
+  }
+  result.smooth_ms = median(smooth_ms);
+  result.split_ms = median(split_ms);
+  return result;
+}
+
+Segments boundary(const Mesh& mesh, const Labels& label) { return segments_of(mesh, boundary_edges(mesh, label)); }
+
+/// The edges where the surface turns by more than 30 degrees.
+Segments creases(const Mesh& mesh) {
+  std::vector<bool> is_crease(mesh.num_edges(), false);
+  const auto normal = [&](Mesh::Halfedge_index h) {
+    return CGAL::normal(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+  };
+  for (const auto e : mesh.edges())
+    if (!mesh.is_border(e)) {
+      const auto h = mesh.halfedge(e);
+      is_crease[e] = angle_between(normal(h), normal(mesh.opposite(h))) > CGAL_PI / 6;
+    }
+  return segments_of(mesh, is_crease);
+}
+
+double share_below(const std::vector<double>& values, double limit) {
+  const auto below = std::count_if(values.begin(), values.end(), [&](double value) { return value <= limit; });
+  return values.empty() ? 1 : static_cast<double>(below) / static_cast<double>(values.size());
+}
+
+void measure(const std::string& name, Mesh mesh, const Automatic_segmentation& policy, const Arguments& arguments,
+             std::vector<Result>& results) {
+  const Labels label = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  const Stopwatch segmenting;
+  const std::size_t segments = segmentation_via_random_walks(mesh, label, policy);
+  const double segment_ms = segmenting.milliseconds();
+  const Refined refined = refine(mesh, arguments.repeats);
+
+  const Turning jagged = turning(mesh, boundary_edges(mesh, label));
+  const Turning smooth = turning(refined.mesh, boundary_edges(refined.mesh, refined.label));
+  const Segments before = boundary(mesh, label), after = boundary(refined.mesh, refined.label);
+  const double edge = mean_edge_length(mesh);
+  const auto spread = points_on(after, edge / 10);
+  const auto displacement = before.empty() ? std::vector<double>{0} : distances(spread, before);
+  const Segments sharp = creases(mesh);
+  const double crease_share = sharp.empty() ? 0 : share_below(distances(spread, sharp), edge / 2);
+
+  std::printf(
+      "%-12s %7u faces %3zu segments %3zu curves (%zu left)  turning %.1f -> %.1f (on the surface %.1f -> %.1f)"
+      "  length x %.2f  moved %.2f edges, %.2f %%\n",
+      name.c_str(), mesh.number_of_faces(), segments, refined.curves, refined.curves_left, jagged.in_space,
+      smooth.in_space, jagged.on_surface, smooth.on_surface, smooth.length / jagged.length,
+      maximum(displacement) / edge, 100 * maximum(displacement) / diagonal(mesh));
+  Result& result = results.emplace_back("boundaries");
+  result.add("mesh", name).add("faces", mesh.number_of_faces()).add("segments", segments);
+  result.add("curves", refined.curves).add("curves_left", refined.curves_left);
+  result.add("crease_share", crease_share).add("turning_ratio", smooth.on_surface / jagged.on_surface);
+  result.add("space_turning_ratio", smooth.in_space / jagged.in_space);
+  result.add("turning_per_edge_before", jagged.on_surface / jagged.length * edge);
+  result.add("turning_per_edge", smooth.on_surface / smooth.length * edge);
+  result.add("length_ratio", smooth.length / jagged.length).add("moved_edges", maximum(displacement) / edge);
+  result.add("moved_percent", 100 * maximum(displacement) / diagonal(mesh));
+  result.add("faces_added", refined.report.faces_added);
+  result.add("least_angle_before", smallest_angle(mesh, 0)).add("least_angle", smallest_angle(refined.mesh, 0));
+  result.add("segment_ms", segment_ms).add("smooth_ms", refined.smooth_ms).add("split_ms", refined.split_ms);
+  result.add("ms", refined.smooth_ms + refined.split_ms);
+}
+
+// ---- Solids whose joints are known ----
+
+Mesh mesh_of(const solids::Solid& solid, const std::vector<std::size_t>& label) {
+  Mesh mesh;
+  for (const auto& p : solid.points) mesh.add_vertex(Mesh::Point(p.x(), p.y(), p.z()));
+  for (const auto& face : solid.faces) {
+    std::vector<Mesh::Vertex_index> corners;
+    for (const std::size_t corner : face) corners.emplace_back(static_cast<Mesh::size_type>(corner));
+    mesh.add_face(corners);
+  }
+  Labels map = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  for (const auto f : mesh.faces()) map[f] = label[f];
+  return mesh;
+}
+
+/// Labels that miss the joints by a face here and there: every second face at a joint, chosen by chance, goes to the
+/// other side, and those that this leaves alone go with their neighbours.
+std::vector<std::size_t> jagged_labels(const Mesh& mesh, const std::vector<std::size_t>& true_label) {
+  std::mt19937 random(1);
+  std::vector<std::size_t> label = true_label;
+  const auto labels_beside = [&](Mesh::Face_index f, const std::vector<std::size_t>& labels) {
+    std::vector<std::size_t> result;
+    for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh))
+      result.push_back(labels[mesh.face(mesh.opposite(h))]);
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  for (const auto f : mesh.faces())
+    for (const std::size_t other : labels_beside(f, true_label))
+      if (other != true_label[f] && random() % 2 == 0) label[f] = other;
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (const auto f : mesh.faces()) {
+      const std::vector<std::size_t> beside = labels_beside(f, label);
+      if (std::count(beside.begin(), beside.end(), label[f]) > 0) continue;
+      label[f] = beside[1];  // the one that there are two of, if there is
+      is_changed = true;
+    }
+  }
+  return label;
+}
+
+void measure_joints(const solids::Solid& solid, const Arguments& arguments, std::vector<Result>& results) {
+  const Mesh exact = mesh_of(solid, solid.label);
+  const Labels true_label = exact.property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  const Segments joint = boundary(exact, true_label);
+  const Mesh mesh = mesh_of(solids::with_noise(solid, arguments.noise), jagged_labels(exact, solid.label));
+  const Labels label = mesh.property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  const Refined refined = refine(mesh, 1);
+
+  const double edge = mean_edge_length(exact);
+  const double before = mean(distances(points_on(boundary(mesh, label), edge / 10), joint)) / edge;
+  const double after = mean(distances(points_on(boundary(refined.mesh, refined.label), edge / 10), joint)) / edge;
+  const Turning jagged = turning(mesh, boundary_edges(mesh, label));
+  const Turning smooth = turning(refined.mesh, boundary_edges(refined.mesh, refined.label));
+  std::printf("%-18s %7u faces %3zu curves (%zu left)  distance from the joint %.3f -> %.3f edges  turning x %.2f\n",
+              solid.name.c_str(), mesh.number_of_faces(), refined.curves, refined.curves_left, before, after,
+              smooth.on_surface / jagged.on_surface);
+  Result& result = results.emplace_back("boundaries");
+  result.add("solid", solid.name).add("faces", mesh.number_of_faces()).add("noise_percent", arguments.noise);
+  result.add("curves", refined.curves).add("curves_left", refined.curves_left);
+  result.add("joint_distance_before", before).add("joint_distance", after).add("joint_ratio", after / before);
+  result.add("turning_ratio", smooth.on_surface / jagged.on_surface).add("faces_added", refined.report.faces_added);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Arguments arguments;
+  CLI::App app(
+      "Smooths the boundaries of automatic segments and cuts them into the mesh; measures how much they turn, how far "
+      "they move, which share of them lies on creases, and the time. The fandisk is segmented as a part of a machine. "
+      "On constructed solids with noise it measures how far boundaries, made jagged by chance, lie from the joints.");
+  app.add_option("MESH", arguments.meshes, "Mesh files of your own, instead of the data meshes and the solids")
+      ->check(CLI::ExistingFile);
+  app.add_option("--data-meshes", arguments.data_meshes, "Of CGAL; none for the solids alone")
+      ->delimiter(',')
+      ->expected(0, -1)
+      ->capture_default_str();
+  app.add_option("--repeats", arguments.repeats, "Runs whose median time counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--edge-length", arguments.edge_length, "Of the solids, whose diagonals are 3 to 5; 0 for none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--noise", arguments.noise, "On the solids, percent of the diagonal")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  std::vector<Result> results;
+  for (const std::string& path : arguments.meshes)
+    measure(std::filesystem::path(path).stem().string(), read_mesh(path), {}, arguments, results);
+  if (arguments.meshes.empty()) {
+    for (const std::string& name : arguments.data_meshes)
+      measure(name, read_mesh(data_mesh(name + ".off")), name == "fandisk" ? for_machines() : Automatic_segmentation(),
+              arguments, results);
+    if (arguments.edge_length > 0)
+      for (const solids::Solid& solid : solids::all(solids::even(arguments.edge_length)))
+        measure_joints(solid, arguments, results);
+  }
+  print(results);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "benchmark_boundaries: " << error.what() << '\n';
+  return 1;
+}
