@@ -36,7 +36,7 @@ struct Boundary_smoothing {
   double feature_weight = 0.02;
   /// Edges whose faces' smoothed normals differ by more, in radians, are creases; boundaries stay on them.
   double crease_angle = 0.5;
-  /// How far a boundary may get from the edges it ran along, in mean edge lengths.
+  /// How far a boundary may get from the edges it ran along, in mean edge lengths; with 0 all stay as they are.
   double largest_displacement = 1;
   /// Implicit steps in which the spline is reached; after each, it is put back on the surface.
   std::size_t steps = 64;

@@ -71,6 +71,9 @@ std::vector<Surface_curve> surface_curves(const std::vector<Boundary_curve<Trian
     if (curve.points.size() < (curve.is_closed ? 3 : 2))
       throw argument_error(("the number of points of " + name).c_str(), curve.points.size(),
                            "at least 2, or 3 if it is closed");
+    if (curve.segments[0] == curve.segments[1])
+      throw argument_error(("the segment on the right of " + name).c_str(), curve.segments[1],
+                           "another one than that on the left");
     for (const auto& point : curve.points) {
       if (!(point.position >= 0 && point.position <= 1))
         throw argument_error(("a position on " + name).c_str(), point.position, "from 0 to 1");
@@ -274,8 +277,9 @@ Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Bounda
                                                 internal::least_relative_height * surface.mean_edge_length());
   if (refinement.has_faults()) {
     const auto& faulty = refinement.faulty_curves();
-    const auto first = std::find(faulty.begin(), faulty.end(), true) - faulty.begin();
-    throw std::invalid_argument("curve " + std::to_string(first) +
+    const auto first = std::find(faulty.begin(), faulty.end(), true);
+    if (first == faulty.end()) throw std::invalid_argument("the curves do not bound the segments of the mesh");
+    throw std::invalid_argument("curve " + std::to_string(first - faulty.begin()) +
                                 " crosses another one, cuts off too low a triangle, or does not bound its segments");
   }
 

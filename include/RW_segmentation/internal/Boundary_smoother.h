@@ -138,7 +138,8 @@ class Boundary_smoother {
     const Boundary_chain& chain = chains_[c];
     const std::vector<Curve_point>& points = points_[c];
     const bool is_free = std::any_of(points.begin(), points.end(), [](const auto& p) { return !p.is_fixed(); });
-    if (!is_free || chain.halfedges.size() < (chain.is_closed ? 5 : 2) || is_ring(chain)) return std::nullopt;
+    if (!(numbers_.corridor > 0) || !is_free || chain.halfedges.size() < (chain.is_closed ? 5 : 2) || is_ring(chain))
+      return std::nullopt;
 
     // Between the points the curve may reach a little further out.
     constexpr double margin = 0.8;

@@ -71,10 +71,9 @@ class Surface_refinement {
     find_segments(segment_of_face);
   }
 
-  /// Whether each curve is part of a fault.
+  /// Whether each curve is part of a fault; no one, if it is all of them that do not bound the segments.
   const std::vector<char>& faulty_curves() const { return is_faulty_; }
-  bool has_faults() const { return std::find(is_faulty_.begin(), is_faulty_.end(), true) != is_faulty_.end(); }
-
+  bool has_faults() const { return has_faults_; }
   /// Along each edge from its source.
   const std::vector<Edge_cut>& edge_cuts() const { return cuts_; }
   const std::vector<Cut_face>& cut_faces() const { return cut_faces_; }
@@ -94,7 +93,7 @@ class Surface_refinement {
     std::size_t curve;
   };
 
-  void blame(std::size_t curve) { is_faulty_[curve] = true; }
+  void blame(std::size_t curve) { is_faulty_[curve] = has_faults_ = true; }
 
   // ---- Nodes ----
 
@@ -334,7 +333,7 @@ class Surface_refinement {
     for (std::size_t f = 0; f < surface_.number_of_faces(); ++f)
       if (witness[after[f]] == no_curve && !is_cut(static_cast<Index>(f)))
         is_whole = is_whole && segment[after[f]] == segment_of_face[f];
-    if (!is_whole || sets_before != sets_after) std::fill(is_faulty_.begin(), is_faulty_.end(), true);
+    has_faults_ = !is_whole || sets_before != sets_after;
   }
 
   static constexpr std::size_t no_curve = std::numeric_limits<std::size_t>::max();
@@ -342,6 +341,7 @@ class Surface_refinement {
   const Triangle_surface& surface_;
   const std::vector<Surface_curve>& curves_;
   std::vector<char> is_faulty_;
+  bool has_faults_ = false;
   std::vector<Edge_cut> cuts_;
   std::vector<std::pair<Index, std::size_t>> edge_lines_;  // a halfedge and its curve
   std::vector<Index> whole_edges_;
