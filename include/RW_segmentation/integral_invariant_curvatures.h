@@ -206,7 +206,7 @@ std::vector<Curvature_report> integral_invariant_curvatures(
   const auto measured = internal::curvatures_of_faces<ConcurrencyTag>(graph, geometry, surface, lengths, reports,
                                                                       internal::progress_of(np));
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    CurvatureMap map = curvatures[i];
+    const CurvatureMap& map = curvatures[i];
     for (std::size_t f = 0; f < measured[i].size(); ++f) {
       Surface_curvatures value = measured[i][f];
       value.max_curvature /= geometry.unit;
