@@ -1,0 +1,104 @@
+#ifndef SEGMENT_MESH_BOUNDARIES_H
+#define SEGMENT_MESH_BOUNDARIES_H
+
+#include "../mesh_files.h"
+#include "Oriented_mesh.h"
+#include "Segmentation.h"
+
+#include <RW_segmentation/smooth_boundaries.h>
+#include <RW_segmentation/split_along_boundaries.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace segment_mesh {
+
+using Boundary_curves = std::vector<RW_segmentation::Boundary_curve<Mesh>>;
+
+/// The boundaries between the segments, smooth ones or as they run along the edges.
+inline Boundary_curves boundary_curves(const Mesh& mesh, std::vector<std::size_t>& label, bool is_smooth,
+                                       const std::function<bool(double)>& callback) {
+  RW_segmentation::Boundary_smoothing smoothing;
+  if (!is_smooth) smoothing.largest_displacement = 0;
+  return RW_segmentation::smooth_boundaries(mesh, face_map(mesh, label), smoothing,
+                                            CGAL::parameters::callback(callback));
+}
+
+/// Notes which face each new one was part of.
+struct Parent_notes : RW_segmentation::Default_split_visitor<Mesh> {
+  Mesh::Face_index divided;
+  std::shared_ptr<std::vector<Mesh::Face_index>> parent_of_new =  // the library takes a copy of the visitor
+      std::make_shared<std::vector<Mesh::Face_index>>();
+
+  void before_subface_creations(Mesh::Face_index face, const Mesh&) { divided = face; }
+  void after_subface_created(Mesh::Face_index, const Mesh&) { parent_of_new->push_back(divided); }
+};
+
+/// Gives the new faces of a mesh the values of those that they were part of.
+template <class Value>
+void inherit(std::vector<Value>& values, const std::vector<Mesh::Face_index>& parent_of_new) {
+  values.reserve(values.size() + parent_of_new.size());
+  for (const auto f : parent_of_new) values.push_back(values[f]);
+}
+
+/// Cuts the curves into the mesh; new faces follow the old ones.
+inline RW_segmentation::Split_report cut_boundaries(Mesh& mesh, const Boundary_curves& curves, Segmentation& result) {
+  const Parent_notes notes;
+  const auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  for (const auto f : mesh.faces()) segment[f] = result.label[f];
+  const auto report = RW_segmentation::split_along_boundaries(mesh, curves, segment, CGAL::parameters::visitor(notes));
+  result.label.assign(segment.begin(), segment.end());
+  for (auto& probability : result.probabilities) inherit(probability, *notes.parent_of_new);
+  if (!result.fragment.empty()) inherit(result.fragment, *notes.parent_of_new);
+  return report;
+}
+
+/// The mesh as it is written.
+inline mesh_files::Polygon_soup soup_of(const Mesh& mesh) {
+  mesh_files::Polygon_soup soup;
+  for (const auto v : mesh.vertices()) soup.points.push_back(mesh.point(v));
+  for (const auto f : mesh.faces()) {
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) soup.corners.push_back(v);
+    soup.end_face();
+  }
+  return soup;
+}
+
+/// Writes curves as an OBJ file: a group with the two labels, points and a polyline for each.
+inline void write_curves(mesh_files::Output_file& file, const Boundary_curves& curves) {
+  mesh_files::Buffer out(file);
+  std::size_t number = 0;
+  for (const auto& curve : curves) {
+    out << "g boundary_";
+    out.number(curve.segments[0]);
+    out << "_";
+    out.number(curve.segments[1]);
+    out << "\n";
+    for (const auto& [halfedge, position, point] : curve.points) {
+      out << "v";
+      for (int i = 0; i < 3; ++i) {
+        out << " ";
+        out.number(point[i]);
+      }
+      out << "\n";
+    }
+    out << "l";
+    for (std::size_t i = 1; i <= curve.points.size(); ++i) {
+      out << " ";
+      out.number(number + i);
+    }
+    if (curve.is_closed) {
+      out << " ";
+      out.number(number + 1);
+    }
+    out << "\n";
+    number += curve.points.size();
+  }
+  out.flush();
+}
+
+}  // namespace segment_mesh
+
+#endif
