@@ -1,0 +1,289 @@
+// Solids whose analytic faces are known: how well they are found, clean and under noise, beside CGAL's segmentation by
+// sharp edges and by shape diameters. Some parts of CGAL used here are under the GPL.
+
+#include "../test/solids.h"
+#include "measurement.h"
+#include "segmentation_measures.h"
+
+#include <RW_segmentation/Engineering_segmentation.h>
+
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/mesh_segmentation.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace RW_segmentation;
+using namespace measurement;
+using Kernel_point = Mesh::Point;
+using Labels = std::vector<std::size_t>;
+
+// ---- Solids ----
+
+struct Subject {
+  std::string name;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::vector<std::size_t>> faces;
+  Labels truth;  // of each face
+};
+
+Subject subject_of(const solids::Solid& solid, const std::string& meshing) {
+  return {solid.name + meshing, solid.points, solid.faces, solid.label};
+}
+
+std::vector<Subject> constructed_solids(double edge_length) {
+  std::vector<Subject> subjects;
+  for (const solids::Solid& solid : solids::all(solids::even(edge_length)))
+    subjects.push_back(subject_of(solid, ".even"));
+  for (const solids::Solid& solid : solids::all(solids::by_kernel())) subjects.push_back(subject_of(solid, ".kernel"));
+  return subjects;
+}
+
+/// NAME_5k.off and NAME_5k.seg, with one label a line in the order of the triangles.
+std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const std::string& suffix) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() == ".off" && name.size() > suffix.size() &&
+        name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0)
+      paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<Subject> subjects;
+  for (std::filesystem::path path : paths) {
+    Subject subject;
+    subject.name = path.stem().string();
+    std::vector<Kernel_point> points;
+    if (!CGAL::IO::read_polygon_soup(path.string(), points, subject.faces))
+      throw std::runtime_error(path.string() + ": cannot be read");
+    for (const Kernel_point& p : points) subject.points.emplace_back(p.x(), p.y(), p.z());
+    std::ifstream labels(path.replace_extension(".seg"));
+    for (std::size_t label = 0; labels >> label;) subject.truth.push_back(label);
+    if (subject.truth.size() != subject.faces.size())
+      throw std::runtime_error(path.string() + ": not one label for each face");
+    subjects.push_back(std::move(subject));
+  }
+  return subjects;
+}
+
+/// The mesh of a subject, its faces in order; vertices where the surface touches itself are doubled.
+Mesh mesh_of(const Subject& subject, double noise) {
+  solids::Solid solid;
+  solid.points = subject.points;
+  if (noise > 0) solid = solids::with_noise(solid, noise);
+  std::vector<Kernel_point> points;
+  for (const Eigen::Vector3d& p : solid.points) points.emplace_back(p.x(), p.y(), p.z());
+  auto faces = subject.faces;
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  if (!PMP::is_polygon_soup_a_polygon_mesh(faces)) PMP::orient_polygon_soup(points, faces);
+  Mesh mesh;
+  PMP::polygon_soup_to_polygon_mesh(points, faces, mesh);
+  if (num_faces(mesh) != subject.truth.size()) throw std::runtime_error(subject.name + ": is no manifold");
+  return mesh;
+}
+
+// ---- Methods ----
+
+using Label_map =
+    boost::iterator_property_map<std::size_t*, boost::property_map<Mesh, boost::face_index_t>::const_type>;
+using Method = std::function<void(const Mesh&, Label_map)>;
+
+/// Cuts along edges sharper than an angle; CGAL leaves numbers of the patches from 1.
+void by_sharp_edges(const Mesh& input, Label_map labels) {
+  constexpr double angle = 20;
+  Mesh mesh = input;
+  const auto is_sharp = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_sharp", false).first;
+  const auto patch = mesh.add_property_map<Mesh::Face_index, int>("f:patch", 0).first;
+  CGAL::Polygon_mesh_processing::sharp_edges_segmentation(mesh, angle, is_sharp, patch);
+  for (const auto f : mesh.faces()) put(labels, f, static_cast<std::size_t>(get(patch, f)));
+}
+
+void by_shape_diameter(const Mesh& mesh, Label_map labels) {
+  std::vector<double> values(num_faces(mesh));
+  const auto value_map = boost::make_iterator_property_map(values.begin(), get(boost::face_index, mesh));
+  CGAL::sdf_values(mesh, value_map);
+  CGAL::segmentation_from_sdf_values(mesh, value_map, labels);
+}
+
+const std::vector<std::pair<std::string, Method>>& methods() {
+  static const std::vector<std::pair<std::string, Method>> all = {
+      {"engineering",
+       [](const Mesh& mesh, Label_map labels) {
+         segmentation_via_random_walks(mesh, labels, Engineering_segmentation());
+       }},
+      {"sharp_edges", by_sharp_edges},
+      {"sdf", by_shape_diameter},
+  };
+  return all;
+}
+
+// ---- Measures ----
+
+struct Score {
+  double error = 0, boundary_error = 0, overlap = 0, segments = 0, true_segments = 0, matched = 0, milliseconds = 0;
+};
+
+double area(const Mesh& mesh, Mesh::Face_index f) {
+  const auto h = mesh.halfedge(f);
+  const auto &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+             &c = mesh.point(mesh.target(mesh.next(h)));
+  return std::sqrt(CGAL::cross_product(b - a, c - a).squared_length()) / 2;
+}
+
+/// Area-weighted mean over the segments of `a` of the best intersection over union with one of `b`, the same the other
+/// way round, and the mean of both. Also the share of the segments of `b` with a fiftieth of the area or more that are
+/// matched at 0.9.
+void add_overlap(const Mesh& mesh, const Labels& a, const Labels& b, Score& score) {
+  std::map<std::size_t, double> of_a, of_b, best_a, best_b;
+  std::map<std::pair<std::size_t, std::size_t>, double> common;
+  double total = 0;
+  for (const auto f : mesh.faces()) {
+    const double share = area(mesh, f);
+    of_a[a[f]] += share;
+    of_b[b[f]] += share;
+    common[{a[f], b[f]}] += share;
+    total += share;
+  }
+  for (const auto& [pair, share] : common) {
+    const double ratio = share / (of_a[pair.first] + of_b[pair.second] - share);
+    best_a[pair.first] = std::max(best_a[pair.first], ratio);
+    best_b[pair.second] = std::max(best_b[pair.second], ratio);
+  }
+  for (const auto& [label, share] : of_a) score.overlap += best_a[label] * share / total / 2;
+  double large = 0, matched = 0;
+  for (const auto& [label, share] : of_b) {
+    score.overlap += best_b[label] * share / total / 2;
+    if (share < 0.02 * total) continue;
+    ++large;
+    matched += best_b[label] >= 0.9;
+  }
+  score.matched = large > 0 ? matched / large : 1;
+  score.segments = static_cast<double>(of_a.size());
+  score.true_segments = static_cast<double>(of_b.size());
+}
+
+/// The length of the edges that are a boundary in one segmentation only, as a part of the length of all boundaries.
+double boundary_error(const Mesh& mesh, const Labels& a, const Labels& b) {
+  double differing = 0, all = 0;
+  for (const auto e : mesh.edges()) {
+    if (mesh.is_border(e)) continue;
+    const auto h = mesh.halfedge(e);
+    const auto f = mesh.face(h), g = mesh.face(mesh.opposite(h));
+    const bool in_a = a[f] != a[g], in_b = b[f] != b[g];
+    const double length = std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
+    if (in_a != in_b) differing += length;
+    if (in_a || in_b) all += length;
+  }
+  return all > 0 ? differing / all : 0;
+}
+
+Score score_of(const Subject& subject, const Method& method, double noise) {
+  const Mesh mesh = mesh_of(subject, noise);
+  Labels labels(num_faces(mesh));
+  Score score;
+  const Stopwatch watch;
+  method(mesh, Label_map(labels.data(), get(boost::face_index, mesh)));
+  score.milliseconds = watch.milliseconds();
+  score.error = segmentation_measures::Overlaps(labels, subject.truth).rand_index_error();
+  score.boundary_error = boundary_error(mesh, labels, subject.truth);
+  add_overlap(mesh, labels, subject.truth, score);
+  return score;
+}
+
+// ---- Output ----
+
+Result result_of(const std::string& set, const std::string& method, double noise, const std::vector<Score>& scores) {
+  Score mean;
+  double ratio = 0;
+  for (const Score& s : scores) {
+    const auto n = static_cast<double>(scores.size());
+    mean.error += s.error / n;
+    mean.boundary_error += s.boundary_error / n;
+    mean.overlap += s.overlap / n;
+    mean.matched += s.matched / n;
+    mean.segments += s.segments / n;
+    mean.true_segments += s.true_segments / n;
+    mean.milliseconds += s.milliseconds / n;
+    ratio += s.segments / s.true_segments / n;
+  }
+  Result result("engineering");
+  result.add("set", set).add("method", method).add("meshes", scores.size()).add("noise", noise);
+  result.add("error", mean.error).add("boundary_error", mean.boundary_error).add("overlap", mean.overlap);
+  result.add("matched", mean.matched).add("segments", mean.segments).add("true_segments", mean.true_segments);
+  result.add("segment_ratio", ratio).add("ms_per_mesh", mean.milliseconds);
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+  CLI::App app("How well the analytic faces of solids are found");
+  std::string data;
+  std::vector<std::string> chosen = {"engineering"}, suffixes = {"_5k", "_30k", "_t"};
+  std::vector<double> noises = {0};
+  double edge_length = 0.1;
+  std::vector<std::string> names;
+  for (const auto& [name, method] : methods()) names.push_back(name);
+  app.add_option("--data", data, "folder with NAME_5k.off, NAME_5k.seg, ...; default: solids that are made here")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--suffix", suffixes, "which files of the folder")->capture_default_str();
+  app.add_option("--method", chosen, "what segments, one or several")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  app.add_option("--noise", noises, "displace the vertices, in percent of the diagonal, one or several")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--edge-length", edge_length, "of the evenly meshed solids, whose diagonals are 3 to 5")
+      ->check(CLI::Range(0.01, 1.))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    std::vector<std::pair<std::string, std::vector<Subject>>> sets;
+    if (data.empty())
+      sets.emplace_back("constructed", constructed_solids(edge_length));
+    else
+      for (const std::string& suffix : suffixes) sets.emplace_back("cad" + suffix, solids_in_folder(data, suffix));
+    std::vector<Result> results;
+    for (const auto& [set, subjects] : sets)
+      for (const std::string& name : chosen)
+        for (const double noise : noises) {
+          const auto method =
+              std::find_if(methods().begin(), methods().end(), [&](const auto& named) { return named.first == name; });
+          std::printf("\n%-44s %8s %8s %8s %8s %8s %9s\n", (set + ", " + name).c_str(), "Rand", "boundary", "overlap",
+                      "segments", "true", "ms");
+          std::vector<Score> scores;
+          for (const Subject& subject : subjects) {
+            const Score s = score_of(subject, method->second, noise);
+            std::printf("%-44s %8.4f %8.4f %8.4f %8.0f %8.0f %9.1f\n", subject.name.c_str(), s.error, s.boundary_error,
+                        s.overlap, s.segments, s.true_segments, s.milliseconds);
+            std::fflush(stdout);
+            scores.push_back(s);
+          }
+          if (!scores.empty()) results.push_back(result_of(set, name, noise, scores));
+        }
+    print(results);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_engineering: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,153 @@
+#ifndef RW_SEGMENTATION_INTERNAL_REGION_FRAGMENTS_H
+#define RW_SEGMENTATION_INTERNAL_REGION_FRAGMENTS_H
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/Face_corners.h>
+#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/Graph_walk.h>
+#include <RW_segmentation/internal/Surface_growing.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Makes fragments of the regions that `Surface_growing` found and of the faces that no surface explains: these form
+/// groups that are fragments themselves, or, where a group is too small to be a face of the solid and continues a
+/// region smoothly, are given to the regions by a random walk from these.
+class Region_fragments {
+ public:
+  using Index = Dual_graph::Index;
+
+  Region_fragments(const Dual_graph& graph, const Face_geometry& geometry, const Face_corners& corners,
+                   const Surface_tolerance& tolerance, const std::vector<double>& angles,
+                   const std::vector<double>& conductances)
+      : graph_(graph),
+        geometry_(geometry),
+        corners_(corners),
+        tolerance_(tolerance),
+        angles_(angles),
+        conductances_(conductances) {}
+
+  /// \param region_of_face `Surface_growing::none` for the faces of no region
+  /// \returns the fragment of each face, numbered from 0
+  std::vector<std::size_t> fragments(const std::vector<std::size_t>& region_of_face, const Progress& progress) {
+    fragment_of_face_.assign(graph_.number_of_faces(), none);
+    for (Index f = 0; f < graph_.number_of_faces(); ++f)
+      if (fragment_of_face_[f] == none && region_of_face[f] != none)
+        collect(f, [&](Index from, Index to, Index) { return region_of_face[from] == region_of_face[to]; });
+    std::vector<Index> unexplained;
+    for (Index f = 0; f < graph_.number_of_faces(); ++f) {
+      if (fragment_of_face_[f] != none) continue;
+      const std::vector<Index> group =
+          collect(f, [&](Index, Index to, Index edge) { return region_of_face[to] == none && is_smooth(edge); });
+      if (continues_a_region(group, region_of_face)) unexplained.insert(unexplained.end(), group.begin(), group.end());
+    }
+    if (!unexplained.empty()) walk(unexplained, progress);
+    return renumbered();
+  }
+
+ private:
+  static constexpr std::size_t none = Surface_growing::none;
+
+  bool is_smooth(Index edge) const {
+    constexpr double smooth_angle = 25 * degrees;
+    const auto [f, g] = graph_.faces_of(edge);
+    const double noise = tolerance_.noise > 0 ? tolerance_.normal_angle[f] + tolerance_.normal_angle[g] : 0;
+    return angles_[edge] < std::max(smooth_angle, noise);
+  }
+
+  /// Gives the next fragment to all faces that a predicate of two faces and their edge leads to.
+  template <class Predicate>
+  std::vector<Index> collect(Index first, const Predicate& leads) {
+    std::vector<Index> group = {first};
+    fragment_of_face_[first] = number_of_fragments_;
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (const auto& [g, e] : graph_.neighbours(group[i]))
+        if (fragment_of_face_[g] == none && conductances_[e] > 0 && leads(group[i], g, e)) {
+          fragment_of_face_[g] = number_of_fragments_;
+          group.push_back(g);
+        }
+    ++number_of_fragments_;
+    return group;
+  }
+
+  bool continues_a_region(const std::vector<Index>& group, const std::vector<std::size_t>& region_of_face) const {
+    // Of a face of the solid that is no analytic surface.
+    const std::size_t fewest_faces = tolerance_.noise > 0 ? 100 : 20;
+    if (group.size() >= fewest_faces || (tolerance_.noise == 0 && is_flat(group))) return false;
+    for (const Index f : group)
+      for (const auto& [g, e] : graph_.neighbours(f))
+        if (region_of_face[g] != none && conductances_[e] > 0 && is_smooth(e)) return true;
+    return false;
+  }
+
+  bool is_flat(const std::vector<Index>& group) const {
+    const Eigen::Vector3d& normal = geometry_.normal[group.front()];
+    const Eigen::Vector3d& origin = geometry_.centroid[group.front()];
+    for (const Index f : group)
+      for (const Index v : corners_[f])
+        if (std::abs((corners_.point(v) - origin).dot(normal)) > tolerance_.largest_distance()) return false;
+    return true;
+  }
+
+  /// Gives faces to the fragments about them. These are absorbing, so that each of them is one node.
+  void walk(const std::vector<Index>& faces, const Progress& progress) {
+    constexpr Index no_node = std::numeric_limits<Index>::max();
+    std::vector<Index> node_of_face(graph_.number_of_faces(), no_node), node_of_fragment(number_of_fragments_, no_node);
+    for (std::size_t i = 0; i < faces.size(); ++i) node_of_face[faces[i]] = static_cast<Index>(i);
+    std::vector<Index> seeds;
+    std::vector<std::size_t> fragments;
+    std::vector<std::array<Index, 2>> edges;
+    std::vector<double> conductances;
+    for (const Index f : faces)
+      for (const auto& [g, e] : graph_.neighbours(f)) {
+        Index other = node_of_face[g];
+        if (other == no_node) {
+          Index& seed = node_of_fragment[fragment_of_face_[g]];
+          if (seed == no_node) {
+            seed = static_cast<Index>(faces.size() + seeds.size());
+            seeds.push_back(seed);
+            fragments.push_back(fragment_of_face_[g]);
+          }
+          other = seed;
+        } else if (other < node_of_face[f]) {
+          continue;  // seen from the other side
+        }
+        edges.push_back({node_of_face[f], other});
+        conductances.push_back(conductances_[e]);
+      }
+    const Dual_graph graph(faces.size() + seeds.size(), std::move(edges));
+    const std::vector<std::size_t> labels = walk_labels(graph, std::move(conductances), seeds, fragments, progress);
+    for (std::size_t i = 0; i < faces.size(); ++i) fragment_of_face_[faces[i]] = labels[i];
+  }
+
+  std::vector<std::size_t> renumbered() const {
+    std::vector<std::size_t> number(number_of_fragments_, none), result;
+    std::size_t count = 0;
+    for (const std::size_t fragment : fragment_of_face_) {
+      if (number[fragment] == none) number[fragment] = count++;
+      result.push_back(number[fragment]);
+    }
+    return result;
+  }
+
+  const Dual_graph& graph_;
+  const Face_geometry& geometry_;
+  const Face_corners& corners_;
+  const Surface_tolerance& tolerance_;
+  const std::vector<double>& angles_;
+  const std::vector<double>& conductances_;
+  std::vector<std::size_t> fragment_of_face_;
+  std::size_t number_of_fragments_ = 0;
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,387 @@
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACE_GROWING_H
+#define RW_SEGMENTATION_INTERNAL_SURFACE_GROWING_H
+
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/Face_corners.h>
+#include <RW_segmentation/internal/Face_geometry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+constexpr double degrees = 3.14159265358979323846 / 180;
+
+/// How far a mesh may be from the surfaces it approximates. Lengths are parts of the diagonal of its bounding box.
+struct Surface_tolerance {
+  double noise = 0;                  ///< standard deviation of the vertices, 0 if it is below `distance`
+  double distance = 0;               ///< the standard deviation that is reckoned with
+  std::vector<double> normal_angle;  ///< between a face and the surface that it is part of, in radians
+
+  /// Three deviations: what a vertex is allowed.
+  double largest_distance() const { return 3 * distance; }
+
+  /// The angle between two faces that no analytic surface and no noise explains.
+  double sharp_angle(const std::array<Dual_graph::Index, 2>& faces) const {
+    return std::max(40 * degrees, noise > 0 ? normal_angle[faces[0]] + normal_angle[faces[1]] : 0);
+  }
+};
+
+/// \param exactness the least distance that counts
+/// \param noise standard deviation of the vertices
+inline Surface_tolerance surface_tolerance(const Face_geometry& geometry, const Face_corners& corners, double exactness,
+                                           double noise) {
+  constexpr double tessellation = 12 * degrees;  // half of what kernels let an arc turn along an edge
+  Surface_tolerance tolerance;
+  tolerance.noise = noise > exactness ? noise : 0;
+  tolerance.distance = std::max(noise, exactness);
+  for (Dual_graph::Index f = 0; f < geometry.area.size(); ++f) {
+    const double height = 2 * geometry.area[f] / std::max(corners.extent(f), std::numeric_limits<double>::min());
+    const double tilt = tolerance.noise > 0 ? tolerance.noise / std::max(height, 0.1 * tolerance.noise) : 0;
+    tolerance.normal_angle.push_back(std::min(tessellation + 3 * tilt, 3.));
+  }
+  return tolerance;
+}
+
+/// The angle between the faces of each edge, 0 where one of them has no normal.
+inline std::vector<double> edge_angles(const Dual_graph& graph, const Face_geometry& geometry) {
+  std::vector<double> angles;
+  angles.reserve(graph.number_of_edges());
+  for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
+    const Eigen::Vector3d &m = geometry.normal[graph.faces_of(e)[0]], &n = geometry.normal[graph.faces_of(e)[1]];
+    angles.push_back(m.isZero() || n.isZero() ? 0 : 2 * std::asin(std::min(1., (m - n).norm() / 2)));
+  }
+  return angles;
+}
+
+/// Cuts a mesh into connected regions of faces that lie on one analytic surface each, and the remainder.
+///
+/// A surface is fitted to the neighbourhood of a face, flooded as far as vertices and normals agree, fitted to what was
+/// flooded, and so on, until it grows no more. Of all types the one that explains most vertices is kept. Regions that
+/// explain many vertices are taken first; `gain` is the number of vertices beyond those that determine the surface.
+class Surface_growing {
+ public:
+  using Index = Dual_graph::Index;
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  /// \param is_barrier which edges no region crosses; kept by reference, as all arguments are
+  Surface_growing(const Dual_graph& graph, const Face_geometry& geometry, const Face_corners& corners,
+                  const std::vector<char>& is_barrier)
+      : graph_(graph),
+        geometry_(geometry),
+        corners_(corners),
+        is_barrier_(is_barrier),
+        angle_(edge_angles(graph, geometry)),
+        face_mark_(graph.number_of_faces(), 0),
+        vertex_mark_(corners.number_of_vertices(), 0),
+        region_of_face_(graph.number_of_faces(), none) {}
+
+  /// Estimates the tolerance from what neighbourhoods of faces leave unexplained.
+  /// \param exactness the least distance that counts
+  Surface_tolerance estimate_tolerance(double exactness) {
+    constexpr std::size_t trials = 400, vertices = 12;
+    constexpr double quantile = 0.02;  // most neighbourhoods of a coarse mesh lie on several surfaces
+    std::vector<double> deviations;
+    const std::size_t faces = graph_.number_of_faces();
+    for (std::size_t f = 0; f < faces; f += std::max<std::size_t>(1, faces / trials)) {
+      const Patch patch = neighbourhood(static_cast<Index>(f), vertices);
+      const double deviation = least_deviation(patch);
+      if (std::isfinite(deviation)) deviations.push_back(deviation);
+    }
+    double noise = 0;
+    if (!deviations.empty()) {
+      const auto place =
+          deviations.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(deviations.size()));
+      std::nth_element(deviations.begin(), place, deviations.end());
+      noise = 2.5 * *place;  // a low quantile of the best of five
+    }
+    return surface_tolerance(geometry_, corners_, exactness, noise);
+  }
+
+  /// Grows all regions. Faces of the remainder have the region `none`.
+  void grow(const Surface_tolerance& tolerance, const Progress& progress) {
+    tolerance_ = &tolerance;
+    std::vector<Index> order(graph_.number_of_faces());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index f, Index g) { return geometry_.area[f] > geometry_.area[g]; });
+    // By chance, noisy vertices lie on a surface that was fitted to few of them.
+    const std::vector<double> least_gains =
+        tolerance.noise > 0 ? std::vector<double>{64, 24} : std::vector<double>{64, 12, 3};
+    for (std::size_t pass = 0; pass < least_gains.size(); ++pass)
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i % 1000 == 0)
+          progress((static_cast<double>(pass) + static_cast<double>(i) / static_cast<double>(order.size())) /
+                   static_cast<double>(least_gains.size()));
+        const Index seed = order[i];
+        if (region_of_face_[seed] != none || geometry_.normal[seed].isZero()) continue;
+        const Region region = best_region(seed, least_gains[pass]);
+        if (region.gain < least_gains[pass]) continue;
+        for (const Index f : region.patch.faces) region_of_face_[f] = surfaces_.size();
+        surfaces_.push_back(region.surface);
+      }
+  }
+
+  /// Moves faces at the borders of regions to the neighbour whose surface they fit best. Faces of the remainder join a
+  /// region that they fit.
+  void settle_borders() {
+    constexpr int most_sweeps = 4;
+    const std::vector<double> sign = signs();
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      std::size_t moved = 0;
+      for (Index f = 0; f < graph_.number_of_faces(); ++f) {
+        const std::size_t own = region_of_face_[f];
+        std::size_t best = own;
+        double least = own == none ? 2 : misfit(own, sign[own], f);
+        for (const auto& [g, e] : graph_.neighbours(f)) {
+          const std::size_t other = region_of_face_[g];
+          if (other == none || other == own || other == best || is_barrier_[e]) continue;
+          const double d = misfit(other, sign[other], f);
+          if (d < least - 1e-3) {
+            least = d;
+            best = other;
+          }
+        }
+        moved += best != own;
+        region_of_face_[f] = best;
+      }
+      if (moved == 0) break;
+    }
+  }
+
+  const std::vector<std::size_t>& region_of_face() const { return region_of_face_; }
+  const std::vector<Analytic_surface>& surfaces() const { return surfaces_; }
+  const std::vector<double>& angles() const { return angle_; }
+
+ private:
+  /// Connected faces, and their vertices, in the order in which they were reached.
+  struct Patch {
+    std::vector<Index> faces, vertices;
+  };
+  struct Region {
+    Patch patch;
+    Analytic_surface surface;
+    double gain = -std::numeric_limits<double>::infinity();
+  };
+
+  // ---- Patches ----
+
+  void start_patch(Patch& patch) {
+    ++mark_;
+    patch.faces.clear();
+    patch.vertices.clear();
+  }
+  void add(Patch& patch, Index f) {
+    face_mark_[f] = mark_;
+    patch.faces.push_back(f);
+    for (const Index v : corners_[f])
+      if (vertex_mark_[v] != mark_) {
+        vertex_mark_[v] = mark_;
+        patch.vertices.push_back(v);
+      }
+  }
+
+  bool is_sharp(Index edge) const {
+    const double limit = tolerance_ ? tolerance_->sharp_angle(graph_.faces_of(edge)) : 60 * degrees;
+    return is_barrier_[edge] || angle_[edge] > limit;
+  }
+
+  /// Free faces about a face, breadth first, not across sharp edges, until they have so many vertices.
+  Patch neighbourhood(Index seed, std::size_t vertices) {
+    Patch patch;
+    start_patch(patch);
+    add(patch, seed);
+    for (std::size_t i = 0; i < patch.faces.size(); ++i)
+      for (const auto& [g, e] : graph_.neighbours(patch.faces[i])) {
+        if (patch.vertices.size() >= vertices) return patch;
+        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_sharp(e)) add(patch, g);
+      }
+    return patch;
+  }
+
+  /// Some of the vertices and normals of a patch.
+  const Surface_samples& samples_of(const Patch& patch) {
+    constexpr std::size_t most = 80;
+    samples_.clear();
+    for (std::size_t i = 0, step = std::max<std::size_t>(1, patch.vertices.size() / most); i < patch.vertices.size();
+         i += step)
+      samples_.points.push_back(corners_.point(patch.vertices[i]));
+    for (std::size_t i = 0, step = std::max<std::size_t>(1, patch.faces.size() / most); i < patch.faces.size();
+         i += step) {
+      const Index f = patch.faces[i];
+      if (geometry_.normal[f].isZero()) continue;
+      samples_.normal_points.push_back(geometry_.centroid[f]);
+      samples_.normals.push_back(geometry_.normal[f]);
+    }
+    return samples_;
+  }
+
+  double least_deviation(const Patch& patch) {
+    const Surface_samples& samples = samples_of(patch);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Surface_type type : analytic_types) {
+      const double surplus = static_cast<double>(samples.points.size()) - degrees_of_freedom(type);
+      if (surplus < 4) break;
+      const auto surface = fit_analytic_surface(type, samples);
+      if (!surface) continue;
+      least = std::min(least, surface->residual * std::sqrt(static_cast<double>(samples.points.size()) / surplus));
+    }
+    return least;
+  }
+
+  // ---- Surfaces ----
+
+  /// 1 if the surface's normals point out of the solid, -1 if into it.
+  double sign_of(const Analytic_surface& surface, const Patch& patch) const {
+    constexpr std::size_t enough = 50;
+    double sum = 0;
+    for (std::size_t i = 0; i < patch.faces.size() && i < enough; ++i) {
+      const Index f = patch.faces[i];
+      sum += geometry_.area[f] * surface.normal(geometry_.centroid[f]).dot(geometry_.normal[f]);
+    }
+    return sum < 0 ? -1 : 1;
+  }
+
+  bool lies_on(const Analytic_surface& surface, double sign, Index f) const {
+    for (const Index v : corners_[f])
+      if (!(std::abs(surface.signed_distance(corners_.point(v))) <= tolerance_->largest_distance())) return false;
+    const Eigen::Vector3d& n = geometry_.normal[f];
+    return n.isZero() || sign * surface.normal(geometry_.centroid[f]).dot(n) > std::cos(tolerance_->normal_angle[f]);
+  }
+
+  /// The free faces on a surface that are connected with the seed, until they have so many vertices.
+  void flood(Index seed, const Analytic_surface& surface, double sign, std::size_t most_vertices, Patch& patch) {
+    start_patch(patch);
+    if (!lies_on(surface, sign, seed)) return;
+    add(patch, seed);
+    for (std::size_t i = 0; i < patch.faces.size() && patch.vertices.size() < most_vertices; ++i)
+      for (const auto& [g, e] : graph_.neighbours(patch.faces[i]))
+        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_barrier_[e] && lies_on(surface, sign, g))
+          add(patch, g);
+  }
+
+  /// The region of a surface of that type which begins as a given neighbourhood of the seed.
+  Region region_of_type(Surface_type type, Index seed, const Patch& start) {
+    constexpr int most_rounds = 30;
+    constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
+    const auto needed = static_cast<std::size_t>(degrees_of_freedom(type)) + 1;
+    Region region;
+    if (start.vertices.size() < needed) return region;
+    auto surface = fit_analytic_surface(type, samples_of(start));
+    if (!surface || surface->residual > tolerance_->largest_distance()) return region;
+    const Patch* last = &start;
+    std::size_t last_size = start.vertices.size(), limit = 2 * last_size;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double sign = sign_of(*surface, *last);
+      flood(seed, *surface, sign, limit, region.patch);
+      last = &region.patch;
+      const std::size_t size = region.patch.vertices.size();
+      if (size < needed) return region;
+      const bool is_whole = size < limit;
+      if (is_whole && 50 * size <= 51 * last_size) break;  // grows no more
+      limit = is_whole ? everything : 3 * std::max(limit, size);
+      last_size = size;
+      const Surface_samples& samples = samples_of(region.patch);
+      surface = type == Surface_type::plane ? fit_analytic_surface(type, samples)
+                                            : Least_squares_surface(*surface, samples.points).fit();
+      if (!surface) return region;
+    }
+    region.surface = *surface;
+    if (!is_piece_of_free_form(*surface)) region.gain = gain(region);
+    return region;
+  }
+
+  /// A surface grown on a free form ends where the distance becomes too large; vertices of a true one are exact, unless
+  /// there is noise.
+  bool is_piece_of_free_form(const Analytic_surface& surface) const {
+    return tolerance_->noise == 0 && surface.residual > tolerance_->distance / 3;
+  }
+
+  /// The number of vertices explained, each the less the farther it is off, beyond those that determine the surface.
+  double gain(const Region& region) const {
+    double sum = -degrees_of_freedom(region.surface.type);
+    for (const Index v : region.patch.vertices) {
+      const double d = region.surface.signed_distance(corners_.point(v)) / tolerance_->largest_distance();
+      sum += 1 - d * d;
+    }
+    return sum;
+  }
+
+  /// The region about a face that explains most; a more complex surface must explain noticeably more.
+  Region best_region(Index seed, double least_gain) {
+    const std::size_t smallest = tolerance_->noise > 0 ? 18 : 12;
+    const std::array<std::size_t, 2> sizes = {smallest, 3 * smallest};
+    Region best;
+    for (const std::size_t size : sizes) {
+      const Patch start = neighbourhood(seed, size);
+      for (const Surface_type type : analytic_types) {
+        if (type != Surface_type::plane &&
+            start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + 2)
+          break;
+        Region region = region_of_type(type, seed, start);
+        if (region.gain > (best.gain > 0 ? 1.05 * best.gain + 2 : best.gain)) best = std::move(region);
+        if (type == Surface_type::plane && best.gain >= least_gain && ends_at_sharp_edges(best.patch)) return best;
+      }
+      if (best.gain >= least_gain || start.vertices.size() < size) break;
+    }
+    return best;
+  }
+
+  bool ends_at_sharp_edges(const Patch& patch) {
+    ++mark_;
+    for (const Index f : patch.faces) face_mark_[f] = mark_;
+    for (const Index f : patch.faces)
+      for (const auto& [g, e] : graph_.neighbours(f))
+        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_sharp(e)) return false;
+    return true;
+  }
+
+  std::vector<double> signs() const {
+    std::vector<double> sums(surfaces_.size(), 0);
+    for (Index f = 0; f < graph_.number_of_faces(); ++f)
+      if (region_of_face_[f] != none)
+        sums[region_of_face_[f]] +=
+            geometry_.area[f] * surfaces_[region_of_face_[f]].normal(geometry_.centroid[f]).dot(geometry_.normal[f]);
+    for (double& sum : sums) sum = sum < 0 ? -1 : 1;
+    return sums;
+  }
+
+  /// Distance and angle, as parts of what is allowed.
+  double misfit(std::size_t region, double sign, Index f) const {
+    const Analytic_surface& surface = surfaces_[region];
+    double farthest = 0;
+    for (const Index v : corners_[f])
+      farthest = std::max(farthest, std::abs(surface.signed_distance(corners_.point(v))));
+    double angle = 0;
+    if (!geometry_.normal[f].isZero()) {
+      const double cosine = sign * surface.normal(geometry_.centroid[f]).dot(geometry_.normal[f]);
+      angle = std::acos(std::clamp(cosine, -1., 1.));
+    }
+    return farthest / tolerance_->largest_distance() + angle / tolerance_->normal_angle[f];
+  }
+
+  const Dual_graph& graph_;
+  const Face_geometry& geometry_;
+  const Face_corners& corners_;
+  const std::vector<char>& is_barrier_;
+  const Surface_tolerance* tolerance_ = nullptr;
+  std::vector<double> angle_;                           // of each edge
+  std::vector<std::uint32_t> face_mark_, vertex_mark_;  // what the patch at hand holds has its mark
+  std::uint32_t mark_ = 0;
+  Surface_samples samples_;
+  std::vector<std::size_t> region_of_face_;
+  std::vector<Analytic_surface> surfaces_;  // of each region
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif
