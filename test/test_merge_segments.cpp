@@ -167,7 +167,7 @@ TEST(MergeSegments, SizeAwareCostFollowsItsFormula) {
   const auto expected =
       costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
                           [](double a, double b, const Edge_sums& common, const Edge_sums&) {
-                            return common.difference / common.length * (a * b / (a + b)) / common.length;
+                            return (common.difference / common.length + 0.1) * (a * b / (a + b)) / common.length;
                           });
   expect_costs(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), expected);
 }

@@ -200,7 +200,31 @@ TEST(Smoothed_face_normals, RecogniseNoiseAndWiden) {
   ASSERT_LT(widening, 4);
 
   EXPECT_LT(mean_angle(smoothed(noisy), smoothed(noisy, without_widening(0.01 * widening))), 1e-3);
-  EXPECT_LT(mean_angle(smoothed(noisy, {0.01, 0.01, 3}), smoothed(noisy, without_widening(0.03))), 1e-3);
+  EXPECT_LT(mean_angle(smoothed(noisy, {0.01, 0.01, 3, infinity}), smoothed(noisy, without_widening(0.03))), 1e-3);
+}
+
+TEST(Smoothed_face_normals, TellTheShapeUnderHeavyNoiseByItsVertices) {
+  const meshes::Shape torus = meshes::torus(2, 0.7, 80, 40), rough = meshes::with_noise(torus, 0.03);
+  const Normals truth = Triangles(torus).normal;
+  Normal_smoothing by_normals_alone;
+  by_normals_alone.heavy_noise = infinity;
+  EXPECT_LT(mean_angle(smoothed(rough), truth), 0.9 * mean_angle(smoothed(rough, by_normals_alone), truth));
+}
+
+TEST(Smoothed_face_normals, KeepTheBorderInPlaceUnderHeavyNoise) {
+  const meshes::Shape rough = meshes::with_noise(meshes::plane(20), 0.02);
+  const meshes::Surface_mesh mesh = meshes::surface_mesh(rough);
+  RW_segmentation::internal::Unit_box_points points(mesh, CGAL::parameters::default_values());
+  const auto before = points;
+  points.smooth(mesh, 3);
+  std::size_t moved = 0;
+  for (const auto v : mesh.vertices()) {
+    if (CGAL::is_border(v, mesh))
+      EXPECT_EQ(points(v), before(v));
+    else
+      moved += points(v) != before(v);
+  }
+  EXPECT_EQ(moved, 19u * 19u);
 }
 
 TEST(Smoothed_face_normals, DoNotWidenWithoutNoise) {

@@ -47,10 +47,11 @@ class Size_aware_formula {
   double operator()(const Region& a, const Region& b, const Region_boundary& boundary) const {
     const auto& [length, difference] = boundary.common;
     const double size = a.area + b.area > 0 ? a.area * b.area / (a.area + b.area) : 0;
-    return difference / length * size / length * (1 + thickness_weight * thickness_step(a, b));
+    return (difference / length + least_difference) * size / length * (1 + thickness_weight * thickness_step(a, b));
   }
 
  private:
+  static constexpr double least_difference = 0.1;
   static constexpr double thickness_weight = 2;
   static constexpr double largest_thickness_step = 2;
   static constexpr double fewest_samples = 3;
@@ -80,9 +81,9 @@ inline std::vector<Size_aware_formula::Region> size_aware_regions(const Face_geo
 /// The merge cost that agrees best with people, a model of `MergeCost`: regions that are large, meet along a short and
 /// concave boundary and differ in thickness stay apart longest.
 ///
-/// cost = D/L * a b / (a + b) * R/L * (1 + 2 min(|s_a - s_b|, 2)) with the mean difference D/L along the common
+/// cost = (D/L + 0.1) * a b / (a + b) * R/L * (1 + 2 min(|s_a - s_b|, 2)) with the mean difference D/L along the common
 /// boundary of length L, the areas a and b as fractions of the total area R^2, and the mean logarithms s of the
-/// thickness. The last factor is 1 unless both regions hold three samples of the thickness or more. Does not depend on
+/// thickness. By the 0.1 sizes and lengths decide where there is no difference at all. The last factor is 1 unless both regions hold three samples of the thickness or more. Does not depend on
 /// the scale of the mesh. Where the difference is a concavity (`Dihedral_difference` with convex weight 0, angles and
 /// smoothed normals), merging is best stopped at cost 1.
 ///

@@ -28,9 +28,9 @@ struct Normal_smoothing {
   double noise_angle = 0.1;
   /// The largest factor by which noise widens the radius, >= 1.
   double largest_widening = 4;
-  /// The median turn from which on the vertices are smoothed before the normals: so much noise hides the shape from
-  /// the normals of faces, however they are averaged. Infinity never smooths vertices.
-  double heavy_noise_angle = 0.25;
+  /// The multiple of `noise_angle` from which on the vertices are smoothed before the normals: so much noise hides the
+  /// shape from the normals of faces, however they are averaged. Infinity never smooths vertices.
+  double heavy_noise = 2.5;
 };
 
 namespace internal {
@@ -41,8 +41,7 @@ inline void require_smoothing_numbers(const Normal_smoothing& smoothing) {
   if (!(smoothing.noise_angle > 0)) throw argument_error("noise_angle", smoothing.noise_angle, "positive");
   if (!(smoothing.largest_widening >= 1) || !std::isfinite(smoothing.largest_widening))
     throw argument_error("largest_widening", smoothing.largest_widening, "a finite number >= 1");
-  if (!(smoothing.heavy_noise_angle > 0))
-    throw argument_error("heavy_noise_angle", smoothing.heavy_noise_angle, "positive");
+  if (!(smoothing.heavy_noise > 0)) throw argument_error("heavy_noise", smoothing.heavy_noise, "positive");
 }
 
 /// Unit vectors; the face's own where nothing is left, on parts much smaller than the smoothing length.
@@ -123,7 +122,7 @@ std::pair<std::vector<Eigen::Vector3d>, bool> smooth_normals_and_vertices(
   if (smoothing.radius == 0 || geometry.degenerate_faces == geometry.normal.size()) return {geometry.normal, false};
   Diffused_normals normals =
       diffused_normals(graph, geometry, smoothing.radius, geometry.normal, progress.part(0, 0.4));
-  const bool is_noise_heavy = normals.turn > smoothing.heavy_noise_angle;
+  const bool is_noise_heavy = normals.turn / smoothing.noise_angle > smoothing.heavy_noise;
   if (is_noise_heavy) {
     point.smooth(mesh, vertex_steps);
     geometry = face_geometry(mesh, graph, point);
