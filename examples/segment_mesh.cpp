@@ -1,6 +1,7 @@
 // The command-line tool: a mesh file in, a coloured mesh, labels and probabilities out.
 
 #include "mesh_files.h"
+#include "segment_mesh/Boundaries.h"
 #include "segment_mesh/Options.h"
 #include "segment_mesh/Oriented_mesh.h"
 #include "segment_mesh/Output_files.h"
@@ -49,6 +50,20 @@ void list(const std::vector<Segment>& segments) {
   for (const Segment& s : segments) std::printf("%5zu %9zu %6.2f %%\n", s.label, s.faces, 100 * s.area);
 }
 
+/// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
+void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
+                      Segmentation& result, Stages& stages, Output_files& files) {
+  if (!options.is_refined && options.boundaries.empty()) return;
+  const auto callback = stages.start("boundaries");
+  const Boundary_curves curves =
+      boundary_curves(input.mesh, result.label, options.is_smooth || options.is_refined, callback);
+  files.write_boundaries(curves);
+  if (!options.is_refined) return;
+  cut_boundaries(input.mesh, curves, result);
+  soup = soup_of(input.mesh);
+  input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
+}
+
 template <class Policy>
 void run(const Options& options, const Policy& numbers) {
   const std::vector<Seed_argument> seed_texts = seed_arguments(options);
@@ -56,9 +71,9 @@ void run(const Options& options, const Policy& numbers) {
   Stages stages(!options.is_quiet, is_interrupted);
 
   stages.start("reading");
-  const mesh_files::Polygon_soup soup = mesh_files::read_mesh(options.mesh);
+  mesh_files::Polygon_soup soup = mesh_files::read_mesh(options.mesh);
   stages.start("repair");
-  const Oriented_mesh input = oriented_mesh(soup, options.repairs);
+  Oriented_mesh input = oriented_mesh(soup, options.repairs);
   stages.end();
   if (!options.is_quiet)
     for (const std::string& remark : input.remarks) say(options.mesh + ": " + remark);
@@ -68,7 +83,8 @@ void run(const Options& options, const Policy& numbers) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   Output_files files(options);
-  const Segmentation result = segment(input.mesh, seeds, options, policy, stages);
+  Segmentation result = segment(input.mesh, seeds, options, policy, stages);
+  treat_boundaries(options, soup, input, result, stages, files);
 
   stages.start("writing");
   const std::vector<Segment> segments = segments_of(input.mesh, result.label);

@@ -55,6 +55,14 @@ example_test(segment_mesh.stl segment_mesh
   PRINTS "\n   16 +[0-9]+ +[0-9.]+ %\n"
   WRITES segments.seg)
 
+# The same parts, cut along smooth boundaries.
+example_test(split_and_extract split_and_extract ARGUMENTS ${meshes}/bear.off
+  PRINTS "7 boundaries, [1-9][0-9]+ faces added" "segment 0: [0-9]+ faces, 1 borders" "segment 7: ")
+example_test(segment_mesh.refine segment_mesh
+  ARGUMENTS ${meshes}/bear.off --smooth --refine --boundaries boundaries.obj --output segments.ply --labels segments.seg
+  PRINTS "\n    7 +[0-9]+ +[0-9.]+ %\n"
+  WRITES boundaries.obj segments.ply segments.seg)
+
 # The tool's own tests run the tool.
 if(TARGET test_segment_mesh_tool AND TARGET segment_mesh)
   add_dependencies(test_segment_mesh_tool segment_mesh)

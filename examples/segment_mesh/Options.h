@@ -43,8 +43,9 @@ struct Options {
   std::optional<double> smoothing, convex_weight, sigma, cap;
   std::optional<RW_segmentation::Dihedral_measure> measure;
 
+  bool is_smooth = false, is_refined = false;
   std::vector<std::string> outputs;
-  std::string split, labels, probabilities, hierarchy, report;
+  std::string split, labels, probabilities, hierarchy, boundaries, report;
   bool is_quiet = false;
 
   bool has_seeds() const { return !seeds.empty() || !seeds_file.empty(); }
@@ -68,6 +69,7 @@ inline void check_paths(const Options& options) {
   take("--labels", options.labels);
   take("--probabilities", options.probabilities);
   take("--hierarchy", options.hierarchy);
+  take("--boundaries", options.boundaries);
   take("--report", options.report);
 }
 
@@ -77,6 +79,8 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--probabilities", "only segments of seeds have them: give --seed or --coarse alone");
   if (!options.merges() && !options.hierarchy.empty())
     throw CLI::ValidationError("--hierarchy", "seeds make no hierarchy: give no seeds, or --segments or --seeds, too");
+  if (options.is_smooth && !options.is_refined && options.boundaries.empty())
+    throw CLI::ValidationError("--smooth", "nothing would show it: give --refine or --boundaries, too");
 }
 
 inline std::string version() {
@@ -93,7 +97,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
   });
   app.footer(
       "Faces are numbered from 0 in the order of the file, and every output keeps this order. Faces that a repair\n"
-      "leaves out get the label of the closest face. Without an output, the segments are only listed.\n"
+      "leaves out get the label of the closest face; with --refine, the mesh is written without them. Without an\n"
+      "output, the segments are only listed.\n"
       "\n"
       "Exit codes: 0 success, 1 wrong usage, 2 unreadable input, 3 argument out of range, 4 failed computation,\n"
       "5 output that cannot be written, 130 cancelled. Outputs are written whole or not at all.\n"
@@ -158,6 +163,16 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--cap", options.cap, "The largest difference / sigma that counts, or inf")
       ->option_text("NUMBER")
       ->group("Walk");
+
+  app.add_flag("--smooth", options.is_smooth, "Smooth the boundaries between segments; they keep to creases")
+      ->group("Boundaries");
+  app.add_flag("--refine", options.is_refined,
+               "Cut the smooth boundaries into the mesh that is written; all faces must be triangles. The first faces\n"
+               "are those of the mesh, or what is left of them, and new ones follow.")
+      ->group("Boundaries");
+  app.add_option("--boundaries", options.boundaries, "The boundaries as polylines, an OBJ file")
+      ->option_text("FILE")
+      ->group("Boundaries");
 
   app.add_flag_callback(
          "--no-stitch", [&] { options.repairs.stitch = false; }, "Leave borders apart that coincide")

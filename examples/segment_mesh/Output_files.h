@@ -2,6 +2,7 @@
 #define SEGMENT_MESH_OUTPUT_FILES_H
 
 #include "../mesh_files.h"
+#include "Boundaries.h"
 #include "Closest_face.h"
 #include "Options.h"
 #include "Oriented_mesh.h"
@@ -137,7 +138,8 @@ class Output_files {
  public:
   explicit Output_files(const Options& options) : options_(options) {
     for (const std::string& path : options.outputs) create(path);
-    for (const std::string& path : {options.labels, options.probabilities, options.hierarchy, options.report})
+    for (const std::string& path :
+         {options.labels, options.probabilities, options.hierarchy, options.boundaries, options.report})
       if (!path.empty()) create(path);
     if (!options.split.empty()) split_.emplace(options.split);
   }
@@ -167,6 +169,10 @@ class Output_files {
     }
     if (!options_.hierarchy.empty()) file(options_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
     if (split_) write_parts(soup, labels, segments);
+  }
+
+  void write_boundaries(const Boundary_curves& curves) {
+    if (!options_.boundaries.empty()) write_curves(file(options_.boundaries), curves);
   }
 
   /// Gives the files their names.
