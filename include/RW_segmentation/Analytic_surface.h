@@ -31,7 +31,7 @@ constexpr int degrees_of_freedom(Surface_type type) {
 
 /// An unbounded plane, sphere, cylinder, cone or torus. A free form has none of the numbers.
 struct Analytic_surface {
-  Surface_type type = Surface_type::free_form;
+  Surface_type type = Surface_type::free_form;  ///< which of them it is
   /// A point of the plane or of the cylinder's axis, the centre of the sphere or torus, the apex of the cone.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   /// Of unit length: the plane's normal, or the axis; a cone opens along it.
@@ -70,9 +70,11 @@ struct Analytic_surface {
 
 /// What a surface is fitted to: points on it, and unit normals at further points close to it.
 struct Surface_samples {
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> points;  ///< on the surface
+  /// Where normals are known, and these normals.
   std::vector<Eigen::Vector3d> normal_points, normals;
 
+  /// Removes all samples.
   void clear() {
     points.clear();
     normal_points.clear();

@@ -280,6 +280,7 @@ class Analytic_surface_cost : public internal::Analytic_surface_formula {
                                  const NamedParameters& np = CGAL::parameters::default_values())
       : Analytic_surface_cost(std::make_shared<const Mesh_dual_graph<FaceListGraph>>(mesh), mesh, noise, np) {}
 
+  /// The region of a single face.
   Region region(face_descriptor face) const { return region_of(graph_->index(face)); }
 
  private:

@@ -17,20 +17,21 @@ namespace RW_segmentation {
 template <class TriangleMesh>
 struct Boundary_point {
   using halfedge_descriptor = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
+  /// The point type of the mesh.
   using Point = typename boost::property_traits<
       typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::const_type>::value_type;
 
-  halfedge_descriptor halfedge;
-  double position = 1;  ///< from the source of the halfedge, 0, to its target, 1
-  Point point;          ///< where that is
+  halfedge_descriptor halfedge;  ///< of the edge
+  double position = 1;           ///< from the source of the halfedge, 0, to its target, 1
+  Point point;                   ///< where that is
 };
 
 /// A curve on a mesh, the boundary between two segments: a polyline whose points lie on edges or at vertices and whose
 /// lines run across faces or along edges. Two consecutive points always belong to one face.
 template <class TriangleMesh>
 struct Boundary_curve {
-  std::vector<Boundary_point<TriangleMesh>> points;
-  bool is_closed = false;                 ///< whether the first point follows the last
+  std::vector<Boundary_point<TriangleMesh>> points;  ///< from one end to the other
+  bool is_closed = false;                            ///< whether the first point follows the last
   bool is_smoothed = false;               ///< false where it runs along the edges of the mesh, as it did before
   std::array<std::size_t, 2> segments{};  ///< the ids on the left and on the right, seen from outside
 };

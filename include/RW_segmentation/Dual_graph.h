@@ -43,6 +43,7 @@ class Dual_graph {
 
   /// A directed edge, Boost.Graph's edge descriptor.
   struct Arc {
+    /// Two faces and the edge between them.
     Index source, target, edge;
     friend bool operator==(const Arc& a, const Arc& b) { return a.source == b.source && a.edge == b.edge; }
     friend bool operator!=(const Arc& a, const Arc& b) { return !(a == b); }
@@ -51,9 +52,13 @@ class Dual_graph {
   /// The neighbours of a face, a contiguous range.
   class Neighbours {
    public:
+    /// The neighbours from `begin` to `end`, which stay where they are.
     Neighbours(const Neighbour* begin, const Neighbour* end) : begin_(begin), end_(end) {}
+    /// The first neighbour.
     const Neighbour* begin() const { return begin_; }
+    /// Behind the last neighbour.
     const Neighbour* end() const { return end_; }
+    /// The number of neighbours.
     std::size_t size() const { return static_cast<std::size_t>(end_ - begin_); }
 
    private:
@@ -87,7 +92,9 @@ class Dual_graph {
     }
   }
 
+  /// Faces are numbered from 0 to this - 1.
   std::size_t number_of_faces() const { return row_.size() - 1; }
+  /// Edges are numbered from 0 to this - 1.
   std::size_t number_of_edges() const { return ends_.size(); }
 
   /// The neighbours of a face in the order of the edges, one for each edge.
@@ -151,11 +158,14 @@ class Mesh_dual_graph : public Dual_graph {
     static_cast<Dual_graph&>(*this) = Dual_graph(faces_.size(), std::move(ends));
   }
 
+  /// The face of the mesh that has a number.
   face_descriptor face(Index i) const { return faces_[i]; }
+  /// All faces in the order of their numbers.
   const std::vector<face_descriptor>& face_descriptors() const { return faces_; }
 
   /// The mesh edge of an edge of the graph. Its first halfedge, `halfedge(edge(i), mesh)`, lies in `faces_of(i)[0]`.
   edge_descriptor edge(Index i) const { return edges_[i]; }
+  /// All edges in the order of their numbers.
   const std::vector<edge_descriptor>& edge_descriptors() const { return edges_; }
 
   /// The number of a face, `none` if the mesh had no such face.
@@ -189,6 +199,7 @@ class Arc_iterator
 
 }  // namespace internal
 
+/// \cond  Boost.Graph's own functions
 inline std::pair<boost::counting_iterator<Dual_graph::Index>, boost::counting_iterator<Dual_graph::Index>> vertices(
     const Dual_graph& graph) {
   const auto end = static_cast<Dual_graph::Index>(graph.number_of_faces());
@@ -206,6 +217,7 @@ inline Dual_graph::Index target(const Dual_graph::Arc& arc, const Dual_graph&) {
 inline boost::typed_identity_property_map<Dual_graph::Index> get(boost::vertex_index_t, const Dual_graph&) {
   return {};
 }
+/// \endcond
 
 }  // namespace RW_segmentation
 

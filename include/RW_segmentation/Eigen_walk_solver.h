@@ -35,6 +35,7 @@ namespace RW_segmentation {
 template <class EigenSolver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>>
 class Eigen_walk_solver {
  public:
+  /// Numbers faces and edges.
   using Index = Dual_graph::Index;
 
   /// \param accepted_error absolute, of a potential; a solve that is worse throws

@@ -52,11 +52,11 @@ struct Engineering_segmentation {
   std::optional<std::size_t> number_of_segments;  ///< without it, merging stops at `stop_cost`
   double stop_cost = 1;                           ///< the largest cost of a merge, see `Analytic_surface_cost`
   double noise = -1;  ///< standard deviation of the vertices, in parts of the diagonal; negative: estimated
-  Normal_smoothing smoothing = {0, 0.1, 4};  ///< of the normals that the walk sees: none
-  double convex_weight = 1;                  ///< of the difference, see `Dihedral_difference`
-  Dihedral_measure measure = Dihedral_measure::angle;
-  double sigma = 1;  ///< of the conductance, see `Conductance`
-  double cap = 20;   ///< of the conductance
+  Normal_smoothing smoothing = {0, 0.1, 4};            ///< of the normals that the walk sees: none
+  double convex_weight = 1;                            ///< of the difference, see `Dihedral_difference`
+  Dihedral_measure measure = Dihedral_measure::angle;  ///< of the difference
+  double sigma = 1;                                    ///< of the conductance, see `Conductance`
+  double cap = 20;                                     ///< of the conductance
 
   /// The number of segments to stop at.
   std::size_t stop(const Merge_tree& tree) const {

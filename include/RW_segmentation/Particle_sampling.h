@@ -37,6 +37,7 @@ class Particle_sampling {
   /// \throws std::invalid_argument unless `normal_weight` is finite and not negative
   explicit Particle_sampling(double normal_weight) : start_(normal_weight) {}
 
+  /// w as a fraction of the square root of the total area.
   double normal_weight() const { return start_.normal_weight(); }
 
  private:

@@ -24,6 +24,7 @@ class Progress {
   /// Reports to nobody.
   Progress() = default;
 
+  /// Reports to `callback`; to nobody if it is empty.
   explicit Progress(std::function<bool(double)> callback) : callback_(std::move(callback)) {}
 
   /// Reports that `fraction` of this part is done.

@@ -54,6 +54,7 @@ template <class FaceListGraph, class Solver = Star_mesh_elimination>
 class Random_walk {
  public:
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  /// What the user calls a segment.
   using Label = std::size_t;
 
   /// Reads the mesh and the conductances; solves nothing yet.
@@ -86,6 +87,7 @@ class Random_walk {
   /// \throws std::invalid_argument if it is not a face of the mesh
   bool remove_seed(face_descriptor face) { return walk_.remove_seed(index(face)); }
 
+  /// Makes all faces ordinary ones.
   void clear_seeds() { walk_.clear_seeds(); }
 
   /// The seeds and their labels in the order in which they were added.

@@ -8,6 +8,7 @@ struct Edge_sums {
   double length = 0;      ///< L, the sum of the lengths |e|
   double difference = 0;  ///< D, the sum of |e| d_e
 
+  /// Adds both sums.
   Edge_sums& operator+=(const Edge_sums& other) {
     length += other.length;
     difference += other.difference;

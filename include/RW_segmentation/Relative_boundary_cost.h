@@ -12,14 +12,18 @@ namespace RW_segmentation {
 /// Where the whole boundary has difference 0 the cost is 0.
 class Relative_boundary_cost {
  public:
+  /// Nothing: the boundary says it all.
   struct Region {};
 
+  /// The region of a single face.
   template <class FaceDescriptor>
   Region region(const FaceDescriptor&) const {
     return {};
   }
+  /// Does nothing.
   void join(Region&, const Region&) const {}
 
+  /// Eq. 10.
   double operator()(const Region&, const Region&, const Region_boundary& boundary) const {
     const auto& [common, whole] = boundary;
     return whole.difference > 0 ? (common.difference / common.length) / (whole.difference / whole.length) : 0;

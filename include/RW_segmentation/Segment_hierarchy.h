@@ -25,8 +25,9 @@ class Merge_tree {
  public:
   /// Two regions that become one.
   struct Merge {
-    std::size_t first, second;  ///< the two regions, `first` < `second`
-    double cost;                ///< of this merge; costs need not rise from merge to merge
+    /// The two regions, `first` < `second`.
+    std::size_t first, second;
+    double cost;  ///< of this merge; costs need not rise from merge to merge
   };
 
   Merge_tree() = default;
@@ -35,8 +36,11 @@ class Merge_tree {
   Merge_tree(std::size_t number_of_fragments, std::vector<Merge> merges)
       : number_of_fragments_(number_of_fragments), merges_(std::move(merges)) {}
 
+  /// Regions before the first merge.
   std::size_t number_of_fragments() const { return number_of_fragments_; }
+  /// Regions after the last merge.
   std::size_t number_of_components() const { return number_of_fragments_ - merges_.size(); }
+  /// All merges in their order.
   const std::vector<Merge>& merges() const { return merges_; }
 
   /// The segment of each fragment when merging stops at a number of segments. Segments are numbered from 0 in the
@@ -75,8 +79,10 @@ class Merge_tree {
 /// Stops at exactly so many segments; a model of `StopPredicate`.
 class Segment_count_stop {
  public:
+  /// Stops at `number_of_segments`.
   explicit Segment_count_stop(std::size_t number_of_segments) : number_of_segments_(number_of_segments) {}
 
+  /// That number, whatever the tree.
   std::size_t operator()(const Merge_tree&) const { return number_of_segments_; }
 
  private:
@@ -86,8 +92,10 @@ class Segment_count_stop {
 /// Stops before the first merge that costs more than a threshold; a model of `StopPredicate`.
 class Cost_threshold_stop {
  public:
+  /// \param threshold the largest cost of a merge
   explicit Cost_threshold_stop(double threshold) : threshold_(threshold) {}
 
+  /// The number of segments to stop at.
   std::size_t operator()(const Merge_tree& tree) const {
     std::size_t segments = tree.number_of_fragments();
     for (const Merge_tree::Merge& merge : tree.merges()) {
@@ -107,6 +115,7 @@ class Cost_jump_stop {
   /// \param increase the least rise of the cost above the highest one so far that counts as a jump
   explicit Cost_jump_stop(double increase) : increase_(increase) {}
 
+  /// The number of segments to stop at.
   std::size_t operator()(const Merge_tree& tree) const {
     std::size_t segments = tree.number_of_fragments();
     double highest = std::numeric_limits<double>::infinity();  // the first merge has none to jump from

@@ -122,6 +122,7 @@ class Size_aware_cost : public internal::Size_aware_formula {
                   "thickness must be a readable property map from the mesh's face_descriptor to double.");
   }
 
+  /// The region of a single face.
   Region region(face_descriptor face) const { return (*regions_)[face]; }
 
  private:

@@ -37,6 +37,7 @@ namespace RW_segmentation {
 /// threads at once.
 class Star_mesh_elimination {
  public:
+  /// Numbers faces and edges.
   using Index = Dual_graph::Index;
 
   /// Orders the elimination. Depends on the mesh only.

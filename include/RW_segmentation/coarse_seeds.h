@@ -38,6 +38,7 @@ class Seed_count_stop {
     if (number_of_seeds == 0) throw internal::argument_error("number_of_seeds", number_of_seeds, "at least 1");
   }
 
+  /// Whether there are enough seeds without the candidate.
   bool operator()(const std::vector<double>& separation) const { return separation.size() > number_of_seeds_; }
 
  private:

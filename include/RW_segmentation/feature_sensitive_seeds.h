@@ -42,6 +42,7 @@ class Farthest_point_sampling {
       throw internal::argument_error("normal_weight", normal_weight, "finite and not negative");
   }
 
+  /// w as a fraction of the square root of the total area.
   double normal_weight() const { return normal_weight_; }
 
  private:

@@ -34,7 +34,9 @@ class Ball_radius {
   /// In the unit of the mesh's coordinates.
   static Ball_radius absolute(double length) { return {length, false}; }
 
+  /// The length, or the multiple.
   double value() const { return value_; }
+  /// Whether the value is a multiple of the mean edge length.
   bool is_in_edge_lengths() const { return in_edge_lengths_; }
 
  private:
@@ -46,8 +48,8 @@ class Ball_radius {
 /// How a surface bends at a point, at the scale of a ball round it. Curvatures are positive where the solid is convex,
 /// 1/R on a sphere of radius R; their unit is 1 over that of the mesh.
 struct Surface_curvatures {
-  double max_curvature = 0;
-  double min_curvature = 0;
+  double max_curvature = 0;  ///< the larger principal curvature
+  double min_curvature = 0;  ///< the smaller principal curvature
   /// From the volume of the solid in the ball alone: a second estimate of the mean curvature. Where it is far from
   /// `mean_curvature()`, the surface is not smooth at the scale of the ball.
   double mean_curvature_by_volume = 0;
@@ -58,7 +60,9 @@ struct Surface_curvatures {
   Eigen::Vector3d min_direction = Eigen::Vector3d::Zero();  ///< unit vector, zero where nothing was measured
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();         ///< outward, of the surface in the ball
 
+  /// H, the mean of the principal curvatures.
   double mean_curvature() const { return (max_curvature + min_curvature) / 2; }
+  /// K, the product of the principal curvatures.
   double gaussian_curvature() const { return max_curvature * min_curvature; }
 };
 

@@ -44,18 +44,18 @@ struct Automatic_segmentation {
   /// As many segments as that, at least one for each connected component.
   explicit Automatic_segmentation(std::size_t segments) : number_of_segments(segments) {}
 
-  std::optional<std::size_t> number_of_segments;  ///< without it, merging stops at `stop_cost`
-  double stop_cost = 1;                           ///< the largest cost of a merge
-  Normal_smoothing smoothing;                     ///< of the normals, see `smoothed_face_normals()`
-  double convex_weight = 0;                       ///< of the difference, see `Dihedral_difference`
-  Dihedral_measure measure = Dihedral_measure::angle;
+  std::optional<std::size_t> number_of_segments;       ///< without it, merging stops at `stop_cost`
+  double stop_cost = 1;                                ///< the largest cost of a merge
+  Normal_smoothing smoothing;                          ///< of the normals, see `smoothed_face_normals()`
+  double convex_weight = 0;                            ///< of the difference, see `Dihedral_difference`
+  Dihedral_measure measure = Dihedral_measure::angle;  ///< of the difference
   /// Differences up to so many times the mean count as none and larger ones lose it: sqrt(d^2 - x^2).
   double ordinary_difference = 1;
-  double sigma = 1;        ///< of the conductance, see `Conductance`
-  double cap = 20;         ///< of the conductance
-  std::size_t seeds = 40;  ///< for each mesh, and one more for each further connected component
-  Farthest_point_sampling sampling;
-  Thickness_sampling thickness;  ///< 0 samples: thickness does not count
+  double sigma = 1;                  ///< of the conductance, see `Conductance`
+  double cap = 20;                   ///< of the conductance
+  std::size_t seeds = 40;            ///< for each mesh, and one more for each further connected component
+  Farthest_point_sampling sampling;  ///< how the seeds are spread
+  Thickness_sampling thickness;      ///< 0 samples: thickness does not count
 
   /// The number of segments to stop at.
   std::size_t stop(const Merge_tree& tree) const {
@@ -71,16 +71,16 @@ struct Paper_segmentation {
   /// As many segments as that, at least one for each connected component.
   explicit Paper_segmentation(std::size_t segments) : number_of_segments(segments) {}
 
-  std::optional<std::size_t> number_of_segments;  ///< without it, merging stops at `stop_cost`
-  double stop_cost = 0.5;                         ///< the largest cost of a merge
-  Normal_smoothing smoothing = {0, 0.1, 4};       ///< none
-  double convex_weight = 0.2;                     ///< of the difference, see `Dihedral_difference`
-  Dihedral_measure measure = Dihedral_measure::one_minus_cosine;
-  double ordinary_difference = 0;  ///< every difference counts
-  double sigma = 1;                ///< of the conductance, see `Conductance`
-  double cap = 20;                 ///< of the conductance
-  std::size_t seeds = 60;          ///< for each mesh, and one more for each further connected component
-  Farthest_point_sampling sampling;
+  std::optional<std::size_t> number_of_segments;                  ///< without it, merging stops at `stop_cost`
+  double stop_cost = 0.5;                                         ///< the largest cost of a merge
+  Normal_smoothing smoothing = {0, 0.1, 4};                       ///< none
+  double convex_weight = 0.2;                                     ///< of the difference, see `Dihedral_difference`
+  Dihedral_measure measure = Dihedral_measure::one_minus_cosine;  ///< of the difference
+  double ordinary_difference = 0;                                 ///< every difference counts
+  double sigma = 1;                                               ///< of the conductance, see `Conductance`
+  double cap = 20;                                                ///< of the conductance
+  std::size_t seeds = 60;            ///< for each mesh, and one more for each further connected component
+  Farthest_point_sampling sampling;  ///< how the seeds are spread
 
   /// The number of segments to stop at.
   std::size_t stop(const Merge_tree& tree) const {
@@ -97,12 +97,12 @@ struct Segmentation_report {
   std::size_t island_faces = 0;      ///< faces that the walk left apart from their fragment, moved to a neighbour
   bool has_heavy_noise = false;      ///< the vertices were smoothed to see the shape, see `Normal_smoothing`
 
-  /// In the order in which they happen.
+  /// A stage of the computation.
   struct Stage {
-    std::string name;
-    double seconds;
+    std::string name;  ///< what is done
+    double seconds;    ///< how long it took
   };
-  std::vector<Stage> stages;
+  std::vector<Stage> stages;  ///< in the order in which they happen
 };
 
 /// All levels of a segmentation, and a report of how it was made.
@@ -110,9 +110,11 @@ template <class FaceListGraph>
 class Random_walk_hierarchy : public Segment_hierarchy<FaceListGraph> {
  public:
   Random_walk_hierarchy() = default;
+  /// Puts the two together.
   Random_walk_hierarchy(Segment_hierarchy<FaceListGraph> hierarchy, Segmentation_report report)
       : Segment_hierarchy<FaceListGraph>(std::move(hierarchy)), report_(std::move(report)) {}
 
+  /// How the segmentation was made.
   const Segmentation_report& report() const { return report_; }
 
  private:

@@ -49,9 +49,9 @@ struct Default_split_visitor {
 
 /// What was done to a mesh.
 struct Split_report {
-  std::size_t vertices_added = 0;
-  std::size_t faces_added = 0;
-  std::size_t faces_divided = 0;
+  std::size_t vertices_added = 0;    ///< each on an old edge
+  std::size_t faces_added = 0;       ///< beside the faces that were there
+  std::size_t faces_divided = 0;     ///< of the faces that were there
   std::size_t faces_relabelled = 0;  ///< whole faces that came to lie on the other side of a boundary
 };
 
