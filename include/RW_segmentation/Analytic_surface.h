@@ -70,9 +70,9 @@ struct Analytic_surface {
 
 /// What a surface is fitted to: points on it, and unit normals at further points close to it.
 struct Surface_samples {
-  std::vector<Eigen::Vector3d> points;  ///< on the surface
-  /// Where normals are known, and these normals.
-  std::vector<Eigen::Vector3d> normal_points, normals;
+  std::vector<Eigen::Vector3d> points;         ///< on the surface
+  std::vector<Eigen::Vector3d> normal_points;  ///< where normals are known
+  std::vector<Eigen::Vector3d> normals;        ///< at these points
 
   /// Removes all samples.
   void clear() {

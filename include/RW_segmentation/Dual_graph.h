@@ -43,8 +43,9 @@ class Dual_graph {
 
   /// A directed edge, Boost.Graph's edge descriptor.
   struct Arc {
-    /// Two faces and the edge between them.
-    Index source, target, edge;
+    Index source;  ///< the face it leaves
+    Index target;  ///< the face it leads to
+    Index edge;    ///< between the two
     friend bool operator==(const Arc& a, const Arc& b) { return a.source == b.source && a.edge == b.edge; }
     friend bool operator!=(const Arc& a, const Arc& b) { return !(a == b); }
   };

@@ -25,9 +25,9 @@ class Merge_tree {
  public:
   /// Two regions that become one.
   struct Merge {
-    /// The two regions, `first` < `second`.
-    std::size_t first, second;
-    double cost;  ///< of this merge; costs need not rise from merge to merge
+    std::size_t first;   ///< a region
+    std::size_t second;  ///< the other region, of a higher number
+    double cost;         ///< of this merge; costs need not rise from merge to merge
   };
 
   Merge_tree() = default;
