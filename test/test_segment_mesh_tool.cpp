@@ -444,6 +444,51 @@ TEST_F(Segment_mesh_tool, SplitWritesEachSegmentAsAMeshOfItsOwn) {
   EXPECT_FALSE(std::filesystem::exists(path("new")));
 }
 
+TEST_F(Segment_mesh_tool, RefineCutsAllOutputsAlongSmoothBoundaries) {
+  const auto faces_of = [&](const std::string& name) {
+    std::ifstream file(path(name));
+    std::string off;
+    std::size_t points = 0, faces = 0;
+    file >> off >> points >> faces;
+    return faces;
+  };
+  // A crumpled sheet, so that the boundary between the seeds is jagged.
+  std::ostringstream sheet;
+  const int n = 16;
+  sheet << "OFF\n" << (n + 1) * (n + 1) << ' ' << 2 * n * n << " 0\n";
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x)
+      sheet << x << ' ' << y << ' ' << 0.1 * ((31 * x * x + 17 * y * y + 7 * x * y) % 11) << '\n';
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int a = y * (n + 1) + x;
+      sheet << "3 " << a << ' ' << a + 1 << ' ' << a + n + 2 << "\n3 " << a << ' ' << a + n + 2 << ' ' << a + n + 1
+            << '\n';
+    }
+  write("sheet.off", sheet.str());
+  const std::vector<std::string> seeds = {"sheet.off", "--seed", "0", "--seed", "511"};
+
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"--boundaries", "jagged.obj"}).exit_code, 0);
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"--smooth", "--boundaries", "smooth.obj"}).exit_code, 0);
+  EXPECT_TRUE(content_of(path("jagged.obj")) != content_of(path("smooth.obj")));
+  const Result result =
+      run(seeds + std::vector<std::string>{"--refine", "--output", "r.off", "--labels", "r.seg", "--probabilities",
+                                           "r.txt", "--boundaries", "r.obj", "--split", "parts"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(content_of(path("r.obj")), content_of(path("smooth.obj")));
+  const std::size_t faces = faces_of("r.off");
+  EXPECT_GT(faces, std::size_t(2 * n * n));
+  EXPECT_EQ(labels("r.seg").size(), faces);
+  EXPECT_EQ(number_of_lines(content_of(path("r.txt"))), faces + 1);
+  EXPECT_TRUE(std::filesystem::exists(path("parts/segment_0.ply")) &&
+              std::filesystem::exists(path("parts/segment_1.ply")));
+
+  write("grid.off", grid(4));
+  std::filesystem::remove_all(path("parts"));
+  expect_failure(3, "no triangle", {"grid.off", "--seed", "0", "--seed", "9", "--refine", "--output", "g.off"});
+  expect_failure(1, "--smooth", {"sheet.off", "--smooth"});
+}
+
 TEST_F(Segment_mesh_tool, SeedsOfTheUserJoinTheAutomaticOnes) {
   write("tower.off", tower(2));
   ASSERT_EQ(run({"tower.off", "--seeds", "10", "--seed", "5", "--seed", "100", "--hierarchy", "h.json"}).exit_code, 0);
