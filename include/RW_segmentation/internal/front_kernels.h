@@ -36,23 +36,26 @@ constexpr std::size_t front_block = 32;  // pivots eliminated before the rest of
 
 namespace kernel {
 
-constexpr std::size_t tile_rows = 16, tile_columns = 4;
+// A tile of the product is held in registers: two vectors high, four columns wide. The compiler splits vectors that are
+// longer than the registers badly, so each instruction set has its own length.
+constexpr std::size_t longest_vector = 8, tile_columns = 4;
 
 /// Scratch for `add_outer_product`.
 constexpr std::size_t packed_size(std::size_t largest_front) {
-  return (largest_front + 2 * tile_rows) * front_block * 2;
+  return (largest_front + 4 * longest_vector) * front_block * 2;
 }
 
-/// z += a 16 x 4 tile of the product of packed strips a (depth x 16) and b (depth x 4).
+/// tile = the product of packed strips a (depth x 2 vectors) and b (depth x 4).
+template <std::size_t vector_length>
 RW_SEGMENTATION_INLINE void multiply_tile(const double* a, const double* b, std::size_t depth,
-                                          double (&tile)[tile_columns][tile_rows]) {
+                                          double (&tile)[tile_columns][2 * vector_length]) {
 #if defined(__GNUC__) || defined(__clang__)
-  using Vector __attribute__((vector_size(64), aligned(8))) = double;
+  using Vector __attribute__((vector_size(vector_length * sizeof(double)), aligned(8))) = double;
   Vector c[tile_columns][2] = {};
-  for (std::size_t k = 0; k < depth; ++k, a += tile_rows, b += tile_columns) {
+  for (std::size_t k = 0; k < depth; ++k, a += 2 * vector_length, b += tile_columns) {
     Vector low, high;
     std::memcpy(&low, a, sizeof low);
-    std::memcpy(&high, a + 8, sizeof high);
+    std::memcpy(&high, a + vector_length, sizeof high);
     for (std::size_t j = 0; j < tile_columns; ++j) {
       c[j][0] += low * b[j];
       c[j][1] += high * b[j];
@@ -61,16 +64,18 @@ RW_SEGMENTATION_INLINE void multiply_tile(const double* a, const double* b, std:
   std::memcpy(&tile, &c, sizeof c);
 #else
   for (auto& column : tile) std::fill(std::begin(column), std::end(column), 0.);
-  for (std::size_t k = 0; k < depth; ++k, a += tile_rows, b += tile_columns)
+  for (std::size_t k = 0; k < depth; ++k, a += 2 * vector_length, b += tile_columns)
     for (std::size_t j = 0; j < tile_columns; ++j)
-      for (std::size_t i = 0; i < tile_rows; ++i) tile[j][i] += a[i] * b[j];
+      for (std::size_t i = 0; i < 2 * vector_length; ++i) tile[j][i] += a[i] * b[j];
 #endif
 }
 
 /// z(i, j) += sum_k y(i, k) p(j, k) for j < columns, j <= i < rows; y and p have the same leading dimension.
+template <std::size_t vector_length>
 RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, const double* y, const double* p,
                                               std::size_t stride, std::size_t rows, std::size_t columns,
                                               std::size_t depth, double* packed) {
+  constexpr std::size_t tile_rows = 2 * vector_length;
   if (rows < 24 || depth < 4) {
     for (std::size_t k = 0; k < depth; ++k, y += stride, p += stride)
       for (std::size_t j = 0; j < columns; ++j) {
@@ -93,7 +98,7 @@ RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, c
     const std::size_t last = std::min(columns, i + height);
     for (std::size_t j = 0; j < last; j += tile_columns) {
       double tile[tile_columns][tile_rows];
-      multiply_tile(a, b + j * depth, depth, tile);
+      multiply_tile<vector_length>(a, b + j * depth, depth, tile);
       const std::size_t width = std::min(tile_columns, last - j);
       for (std::size_t t = 0; t < width; ++t) {
         double* column = z + (j + t) * z_stride + i;
@@ -105,6 +110,7 @@ RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, c
 
 /// Star-mesh transforms of the pivots in turn. Only sums, products and quotients of non-negative numbers: no digit
 /// is ever cancelled.
+template <std::size_t vector_length>
 RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
   const std::size_t pivots = front.pivots, rows = front.rows, size = pivots + rows;
   double* transition = front.transition;
@@ -143,11 +149,11 @@ RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
     }
     const double* y = front.panel + begin * size;
     if (end < pivots)
-      add_outer_product(front.panel + end * size + end, size, y + end, front.scaled + end, size, size - end,
-                        pivots - end, end - begin, front.packed);
+      add_outer_product<vector_length>(front.panel + end * size + end, size, y + end, front.scaled + end, size,
+                                       size - end, pivots - end, end - begin, front.packed);
     if (rows > 0)
-      add_outer_product(front.remainder, rows, y + pivots, front.scaled + pivots, size, rows, rows, end - begin,
-                        front.packed);
+      add_outer_product<vector_length>(front.remainder, rows, y + pivots, front.scaled + pivots, size, rows, rows,
+                                       end - begin, front.packed);
   }
 }
 
@@ -163,7 +169,7 @@ RW_SEGMENTATION_INLINE double dot_product(const double* a, const double* b, std:
 
 /// Back-substitution through one supernode for `labels` values a face: x_k = source_k + sum_i p_ki x_i, last pivot
 /// first. `x` holds (pivots + rows) x labels, pivots with their source terms; seeds keep what they hold.
-template <std::size_t labels>
+template <std::size_t labels, std::size_t longest>
 RW_SEGMENTATION_INLINE void substitute(const double* transition, std::size_t pivots, std::size_t rows,
                                        const std::uint32_t* absorbing, double* x) {
   const std::size_t size = pivots + rows;
@@ -179,24 +185,27 @@ RW_SEGMENTATION_INLINE void substitute(const double* transition, std::size_t piv
       continue;
     }
 #if defined(__GNUC__) || defined(__clang__)
-    using Vector __attribute__((vector_size(labels * sizeof(double)), aligned(8))) = double;
-    Vector sum[4] = {};
-    std::size_t i = 0;
-    for (; i + 4 <= length; i += 4)
-      for (std::size_t t = 0; t < 4; ++t) {
+    constexpr std::size_t vector_length = std::min(labels, longest), parts = labels / vector_length;
+    constexpr std::size_t chains = std::min<std::size_t>(4, 8 / parts);  // one would wait for its own last sum
+    using Vector __attribute__((vector_size(vector_length * sizeof(double)), aligned(8))) = double;
+    Vector sum[parts][chains] = {};
+    const auto add = [&](std::size_t i, std::size_t chain) {
+      for (std::size_t part = 0; part < parts; ++part) {
         Vector value;
-        std::memcpy(&value, below + (i + t) * labels, sizeof value);
-        sum[t] += value * p[i + t];
+        std::memcpy(&value, below + i * labels + part * vector_length, sizeof value);
+        sum[part][chain] += value * p[i];
       }
-    for (; i < length; ++i) {
-      Vector value;
-      std::memcpy(&value, below + i * labels, sizeof value);
-      sum[0] += value * p[i];
+    };
+    std::size_t i = 0;
+    for (; i + chains <= length; i += chains)
+      for (std::size_t chain = 0; chain < chains; ++chain) add(i + chain, chain);
+    for (; i < length; ++i) add(i, 0);
+    for (std::size_t part = 0; part < parts; ++part) {
+      Vector total;
+      std::memcpy(&total, own + part * vector_length, sizeof total);
+      for (std::size_t chain = 0; chain < chains; ++chain) total += sum[part][chain];
+      std::memcpy(own + part * vector_length, &total, sizeof total);
     }
-    Vector total;
-    std::memcpy(&total, own, sizeof total);
-    total += (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    std::memcpy(own, &total, sizeof total);
 #else
     for (std::size_t i = 0; i < length; ++i)
       for (std::size_t label = 0; label < labels; ++label) own[label] += p[i] * below[i * labels + label];
@@ -233,8 +242,8 @@ inline Instruction_set best_instruction_set() {
 }
 
 #ifdef RW_SEGMENTATION_X86_DISPATCH
-__attribute__((target("avx2,fma"))) inline void eliminate_avx2(const Front& front) { kernel::eliminate(front); }
-__attribute__((target("avx512f,fma"))) inline void eliminate_avx512(const Front& front) { kernel::eliminate(front); }
+__attribute__((target("avx2,fma"))) inline void eliminate_avx2(const Front& front) { kernel::eliminate<4>(front); }
+__attribute__((target("avx512f,fma"))) inline void eliminate_avx512(const Front& front) { kernel::eliminate<8>(front); }
 __attribute__((target("avx2"))) inline void select_largest_avx2(const double* potential, double rank, std::size_t count,
                                                                 double* largest, double* best, double* total) {
   kernel::select_largest(potential, rank, count, largest, best, total);
@@ -247,13 +256,13 @@ __attribute__((target("avx512f"))) inline void select_largest_avx512(const doubl
 template <std::size_t labels>
 __attribute__((target("avx2,fma"))) void substitute_avx2(const double* transition, std::size_t pivots, std::size_t rows,
                                                          const std::uint32_t* absorbing, double* x) {
-  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+  kernel::substitute<labels, 4>(transition, pivots, rows, absorbing, x);
 }
 template <std::size_t labels>
 __attribute__((target("avx512f,fma"))) void substitute_avx512(const double* transition, std::size_t pivots,
                                                               std::size_t rows, const std::uint32_t* absorbing,
                                                               double* x) {
-  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+  kernel::substitute<labels, 8>(transition, pivots, rows, absorbing, x);
 }
 #endif
 
@@ -263,7 +272,7 @@ inline void eliminate(const Front& front, Instruction_set set) {
   if (set == Instruction_set::avx2) return eliminate_avx2(front);
 #endif
   static_cast<void>(set);
-  kernel::eliminate(front);
+  kernel::eliminate<2>(front);
 }
 
 inline void select_largest(const double* potential, double rank, std::size_t count, double* largest, double* best,
@@ -284,7 +293,7 @@ void substitute(const double* transition, std::size_t pivots, std::size_t rows, 
   if (set == Instruction_set::avx2) return substitute_avx2<labels>(transition, pivots, rows, absorbing, x);
 #endif
   static_cast<void>(set);
-  kernel::substitute<labels>(transition, pivots, rows, absorbing, x);
+  kernel::substitute<labels, 2>(transition, pivots, rows, absorbing, x);
 }
 
 }  // namespace RW_segmentation::internal
