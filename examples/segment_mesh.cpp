@@ -9,6 +9,7 @@
 #include "segment_mesh/Stages.h"
 #include "segment_mesh/seeds.h"
 
+#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
@@ -109,7 +110,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     check_paths(options);
     check_combinations(options);
-    if (options.is_paper)
+    if (options.is_engineering)
+      run(options, RW_segmentation::Engineering_segmentation());
+    else if (options.is_paper)
       run(options, RW_segmentation::Paper_segmentation());
     else
       run(options, default_policy(options));

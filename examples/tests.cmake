@@ -55,6 +55,11 @@ example_test(segment_mesh.stl segment_mesh
   PRINTS "\n   16 +[0-9]+ +[0-9.]+ %\n"
   WRITES segments.seg)
 
+example_test(segment_mesh.engineering segment_mesh
+  ARGUMENTS ${meshes}/cube-meshed.off --engineering --report report.json
+  PRINTS "\n    5 +288 +16.67 %\n$"
+  WRITES report.json)
+
 # The same parts, cut along smooth boundaries.
 example_test(split_and_extract split_and_extract ARGUMENTS ${meshes}/bear.off
   PRINTS "7 boundaries, [1-9][0-9]+ faces added" "segment 0: [0-9]+ faces, 1 borders" "segment 7: ")

@@ -38,7 +38,7 @@ struct Options {
   std::vector<std::string> seeds;  ///< see `seed_argument()`
   std::string seeds_file;
   std::optional<std::size_t> segments, automatic_seeds;
-  bool is_coarse = false, is_paper = false;
+  bool is_coarse = false, is_paper = false, is_engineering = false;
 
   std::optional<double> smoothing, convex_weight, sigma, cap;
   std::optional<RW_segmentation::Dihedral_measure> measure;
@@ -106,6 +106,7 @@ inline void define_command_line(CLI::App& app, Options& options) {
       "Examples:\n"
       "  segment_mesh hand.off --output hand.ply\n"
       "  segment_mesh hand.off --segments 6 --split fingers\n"
+      "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
       "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
       "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n");
 
@@ -134,12 +135,23 @@ inline void define_command_line(CLI::App& app, Options& options) {
           ->check(CLI::NonNegativeNumber)
           ->option_text("N")
           ->group("Automatic segments");
-  app.add_flag("--coarse", options.is_coarse, "A few seeds far apart, each a segment, instead of merged fragments")
+  auto* coarse =
+      app.add_flag("--coarse", options.is_coarse, "A few seeds far apart, each a segment, instead of merged fragments")
+          ->excludes(seed)
+          ->excludes(seeds_file)
+          ->excludes(automatic_seeds)
+          ->group("Automatic segments");
+  auto* paper =
+      app.add_flag("--paper", options.is_paper, "The numbers of the paper instead of those that agree best with people")
+          ->group("Automatic segments");
+  app.add_flag("--engineering", options.is_engineering,
+               "For parts of machines: each segment is a plane, sphere, cylinder, cone or torus, or a free form;\n"
+               "--report tells which")
       ->excludes(seed)
       ->excludes(seeds_file)
       ->excludes(automatic_seeds)
-      ->group("Automatic segments");
-  app.add_flag("--paper", options.is_paper, "The numbers of the paper instead of those that agree best with people")
+      ->excludes(coarse)
+      ->excludes(paper)
       ->group("Automatic segments");
 
   app.add_option("--convex-weight", options.convex_weight,

@@ -6,11 +6,14 @@
 #include "Stages.h"
 #include "seeds.h"
 
+#include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/Segment_hierarchy.h>
 #include <RW_segmentation/coarse_seeds.h>
+#include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
@@ -41,8 +44,9 @@ struct Segmentation {
   std::vector<std::vector<double>> probabilities;  ///< for each of them and each face, if asked for
   std::size_t seeds = 0, unseeded_components = 0, island_faces = 0, degenerate_faces = 0;
   bool has_heavy_noise = false;
-  RW_segmentation::Merge_tree tree;   ///< empty unless fragments were merged
-  std::vector<std::size_t> fragment;  ///< of each face, likewise
+  RW_segmentation::Merge_tree tree;                         ///< empty unless fragments were merged
+  std::vector<std::size_t> fragment;                        ///< of each face, likewise
+  std::vector<RW_segmentation::Analytic_surface> surfaces;  ///< of each label; only for parts of machines
 };
 
 /// The numbers that agree best with people.
@@ -55,18 +59,29 @@ inline RW_segmentation::Automatic_segmentation default_policy(const Options& opt
   return policy;
 }
 
-/// The numbers of a policy, or the user's in their place.
+/// The numbers of a policy that every policy has, or the user's in their place.
 template <class Policy>
-Policy policy_of(const Options& options, Policy policy) {
+Policy with_numbers_of(const Options& options, Policy policy) {
   policy.smoothing.radius = options.smoothing.value_or(policy.smoothing.radius);
   policy.convex_weight = options.convex_weight.value_or(policy.convex_weight);
   policy.measure = options.measure.value_or(policy.measure);
   policy.sigma = options.sigma.value_or(policy.sigma);
   policy.cap = options.cap.value_or(policy.cap);
   policy.number_of_segments = options.segments;
+  return policy;
+}
+
+template <class Policy>
+Policy policy_of(const Options& options, const Policy& numbers) {
+  Policy policy = with_numbers_of(options, numbers);
   // Twice as many fragments as segments, so that there is something to choose from.
   policy.seeds = options.automatic_seeds.value_or(std::max(policy.seeds, 2 * options.segments.value_or(0)));
   return policy;
+}
+
+inline RW_segmentation::Engineering_segmentation policy_of(const Options& options,
+                                                           const RW_segmentation::Engineering_segmentation& numbers) {
+  return with_numbers_of(options, numbers);
 }
 
 inline std::size_t number_of_degenerate_faces(const Mesh& mesh) {
@@ -169,6 +184,16 @@ Segmentation segment(const Mesh& mesh, const std::vector<Face_label>& seeds, con
   if (mesh.number_of_faces() == 0) return {};
   return options.merges() ? segment_automatically(mesh, seeds, policy, stages)
                           : segment_from_seeds(mesh, seeds, options, policy, stages);
+}
+
+/// The surfaces of the segments are fitted, too.
+inline Segmentation segment(const Mesh& mesh, const std::vector<Face_label>& seeds, const Options&,
+                            const RW_segmentation::Engineering_segmentation& policy, Stages& stages) {
+  if (mesh.number_of_faces() == 0) return {};
+  Segmentation result = segment_automatically(mesh, seeds, policy, stages);
+  const std::size_t segments = *std::max_element(result.label.begin(), result.label.end()) + 1;
+  result.surfaces = RW_segmentation::segment_surfaces(mesh, face_map(mesh, result.label), segments, policy.noise);
+  return result;
 }
 
 }  // namespace segment_mesh
