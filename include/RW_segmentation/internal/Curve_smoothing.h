@@ -69,7 +69,8 @@ inline double distance_to_chain(const Triangle_surface& surface, const Boundary_
     if (chain.is_closed) i = (i + reach * edges) % edges;
     if (i < 0 || i >= edges) continue;
     const auto h = chain.halfedges[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d a = surface.point(surface.source(h)), u = surface.point(surface.target(h)) - a;
+    const Eigen::Vector3d& a = surface.point(surface.source(h));
+    const Eigen::Vector3d u = surface.point(surface.target(h)) - a;
     const double uu = u.squaredNorm();
     const double t = uu > 0 ? std::clamp((p - a).dot(u) / uu, 0., 1.) : 0;
     least = std::min(least, (a + t * u - p).squaredNorm());

@@ -71,17 +71,17 @@ class Curve_tracing {
     nodes.push_back(node);
     while (nodes.size() > 1) {
       const Curve_node &a = nodes[nodes.size() - 2], &b = nodes.back();
-      if (!a.is_vertex() && !b.is_vertex() && a.edge == b.edge) {  // there and back
+      const bool is_there_and_back = a.is_vertex() || b.is_vertex() ? nodes.size() > 2 && b.is_vertex() &&
+                                                                          nodes[nodes.size() - 3].vertex == b.vertex
+                                                                    : a.edge == b.edge;
+      if (is_there_and_back)
         nodes.resize(nodes.size() - 2);
-      } else if (a.is_vertex() && (b.is_vertex() ? a.vertex == b.vertex : is_end(a.vertex, b.edge))) {
+      else if (a.is_vertex() && (b.is_vertex() ? a.vertex == b.vertex : is_end(a.vertex, b.edge)))
         nodes.pop_back();
-      } else if (!a.is_vertex() && b.is_vertex() && is_end(b.vertex, a.edge)) {
+      else if (!a.is_vertex() && b.is_vertex() && is_end(b.vertex, a.edge))
         nodes.erase(nodes.end() - 2);
-      } else if (nodes.size() > 2 && b.is_vertex() && nodes[nodes.size() - 3].vertex == b.vertex) {
-        nodes.resize(nodes.size() - 2);
-      } else {
+      else
         return;
-      }
     }
   }
 
