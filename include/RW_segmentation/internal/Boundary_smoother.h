@@ -35,7 +35,7 @@ class Boundary_smoother {
         attempts_(chains_.size(), 0),
         is_smoothed_(chains_.size(), false) {}
 
-  /// \param crease for each halfedge, whether its edge is sharp
+  /// \param is_sharp for each halfedge, whether its edge is sharp
   std::vector<Surface_curve> operator()(const std::vector<char>& is_sharp, const Progress& progress) {
     std::vector<Surface_curve> curves;
     for (const Boundary_chain& chain : chains_) {
