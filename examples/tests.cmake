@@ -23,6 +23,18 @@ set(meshes ${data_dir}/meshes)
 example_test(own_difference own_difference ARGUMENTS ${meshes}/cube-meshed.off
   PRINTS "stored map: 288 288 288 288 288 288" "lambda: 288 288 288 288 288 288" "class: 288 288 288 288 288 288")
 
+example_test(own_policies own_policies ARGUMENTS ${meshes}/bear.off
+  PRINTS "^[1-9][0-9]* segments by the largest gap\n30 segments, half of the fragments\n$")
+
+# The parts of a bear, from seeds and without.
+example_test(seeds seeds ARGUMENTS ${meshes}/bear.off 11763 11824 1483 8789 8748 9212 9211 167
+  PRINTS "^segment 0: 962 faces, " "\nsegment 7: [0-9]+ faces, ")
+example_test(automatic_segments automatic_segments ARGUMENTS ${meshes}/bear.off
+  PRINTS "^8 segments\n2 segments\n3 segments\n.*\n8 segments\n$")
+
+example_test(engineering_segments engineering_segments ARGUMENTS ${meshes}/cube-meshed.off
+  PRINTS "^plane\nplane\nplane\nplane\nplane\nplane\n$")
+
 # 2390 faces in two segments, which are the same whatever holds the mesh.
 foreach(program polyhedron openmesh)
   example_test(${program} ${program} ARGUMENTS ${meshes}/hand.off

@@ -1,4 +1,4 @@
-/// \concept Difference
+/// \cgalConcept Difference
 ///
 /// How different the two faces of an edge are: what the walk should not cross, what distances between seeds add up, and
 /// what regions are kept apart by.

@@ -1,4 +1,4 @@
-/// \concept MergeCost
+/// \cgalConcept MergeCost
 ///
 /// What it costs to make one segment of two neighbours; `merge_segments()` merges the cheapest pair first.
 ///

@@ -1,4 +1,4 @@
-/// \concept StopPredicate
+/// \cgalConcept StopPredicate
 ///
 /// Where to stop merging: chooses a level of a `Merge_tree` after all merges have been recorded.
 ///

@@ -1,4 +1,4 @@
-/// \concept WalkSolver
+/// \cgalConcept WalkSolver
 ///
 /// Solves the Dirichlet problem of a random walk on a `Dual_graph`: the potentials of all faces when some, the absorbing
 /// ones, are held at given values and current is conserved at all others.
