@@ -21,8 +21,8 @@ class Divided_triangle {
   /// From a point to a point.
   using Chord = std::array<std::size_t, 2>;
 
-  /// A triangle is numbered by the place of its ear: cutting triangles off in this order leaves a polygon from which
-  /// the next one sticks out, with two sides on the outline.
+  /// The points at which triangles are cut off, one after the other: what is left is a polygon that the next one sticks
+  /// out of. Triangles are numbered in this order.
   using Ears = std::vector<std::size_t>;
 
   /// \param points in counterclockwise order
