@@ -144,8 +144,8 @@ class Builder {
     triangle(label, is_first_shorter ? a : b, c, d);
   }
 
-  /// The image of the unit square, divided `n` by `m`; the first parameter counterclockwise from the second one
-  /// would point inward.
+  /// The image of the unit square, divided `n` by `m`. Seen from outside, the second parameter turns left from the
+  /// first.
   void grid(std::size_t label, std::size_t n, std::size_t m, const std::function<Point(double, double)>& f) {
     const auto at = [&](std::size_t i, std::size_t j) {
       return f(static_cast<double>(i) / static_cast<double>(n), static_cast<double>(j) / static_cast<double>(m));
@@ -241,10 +241,20 @@ inline Eigen::Vector2d square_to_disc(double x, double y) {
 inline void disc(Builder& builder, std::size_t label, const Meshing& meshing, std::size_t around, bool is_upward,
                  const std::function<Point(double, double)>& f) {
   if (meshing.is_even) {
-    builder.grid(label, around / 4, around / 4, [&](double u, double v) {
-      const Eigen::Vector2d p = square_to_disc(2 * (is_upward ? u : v) - 1, 2 * (is_upward ? v : u) - 1);
+    const std::size_t n = around / 4;
+    const auto at = [&](std::size_t i, std::size_t j) {
+      const double u = 2 * static_cast<double>(i) / static_cast<double>(n) - 1;
+      const double v = 2 * static_cast<double>(j) / static_cast<double>(n) - 1;
+      const Eigen::Vector2d p = is_upward ? square_to_disc(u, v) : square_to_disc(v, u);
       return f(p.x(), p.y());
-    });
+    };
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) {
+        // Diagonals point to the centre, lest a triangle has all its corners on the circle.
+        const bool is_first = (2 * i + 1 < n) == (2 * j + 1 < n);
+        builder.triangle(label, at(i, j), at(i + 1, j), is_first ? at(i + 1, j + 1) : at(i, j + 1));
+        builder.triangle(label, is_first ? at(i, j) : at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+      }
   } else {
     std::vector<Point> circle;
     for (std::size_t k = 0; k < around; ++k) {
@@ -297,7 +307,7 @@ inline Solid rounded_box(const Meshing& meshing) {
   const Point half(1, 1.5, 0.75);  // of the box inside, which the radius is added to
   const double radius = 0.3;
   const std::size_t steps = meshing.along_arc(pi / 2, radius);
-  // Counterclockwise about `across` when seen from outside.
+  // The unit vector from `a` towards `b`, at a part of a right angle.
   const auto turned = [](const Point& a, const Point& b, double t) -> Point {
     return std::cos(pi / 2 * t) * a + std::sin(pi / 2 * t) * b;
   };
