@@ -419,6 +419,18 @@ class Surface_fit {
   double spread_ = 0;                                     // root mean square distance from the mean
 };
 
+/// How far normals are off those of a surface, squared and summed, in units of 0.1: what facets are off it at most.
+inline double squared_turns(const Analytic_surface& surface, const Surface_samples& samples) {
+  constexpr double unit = 0.1;
+  double same = 0, opposite = 0;
+  for (std::size_t i = 0; i < samples.normals.size(); ++i) {
+    const Eigen::Vector3d n = surface.normal(samples.normal_points[i]);
+    same += (samples.normals[i] - n).squaredNorm();
+    opposite += (samples.normals[i] + n).squaredNorm();
+  }
+  return std::min(same, opposite) / (unit * unit);
+}
+
 }  // namespace internal
 
 /// The surface of a type that is closest to points, in the sense of least squares of the true distances.
@@ -437,6 +449,7 @@ inline std::optional<Analytic_surface> fit_analytic_surface(Surface_type type, c
 
 /// The surface that explains points best: the number of degrees of freedom counts against closeness, each as much as
 /// log(n) squared deviations by the tolerance (the Bayesian information criterion of n points with Gaussian errors).
+/// Normals count, too: vertices on two circles lie on a cylinder, a cone and a sphere.
 ///
 /// \param samples see above
 /// \param tolerance the root mean square distance that points on a surface are expected to have; in units of the points
@@ -451,7 +464,8 @@ inline Analytic_surface fit_analytic_surface(const Surface_samples& samples, dou
     if (penalty >= least) break;
     const auto surface = fit.fit(type);
     if (!surface || surface->residual > 2 * tolerance) continue;
-    const double ratio = surface->residual / tolerance, criterion = n * ratio * ratio + penalty;
+    const double ratio = surface->residual / tolerance;
+    const double criterion = n * ratio * ratio + internal::squared_turns(*surface, samples) + penalty;
     if (criterion < least) {
       least = criterion;
       best = *surface;
