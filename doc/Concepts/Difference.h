@@ -7,6 +7,6 @@
 /// to `double`. Only interior edges are asked, each once by every stage, so that `get()` may be slow. What matters are
 /// ratios: `Conductance` divides by sigma, so a difference should average about 1 over the edges (Eq. 5).
 ///
-/// Models: `RW_segmentation::Dihedral_difference`, a stored `Surface_mesh::Property_map<Edge_index, double>`, a lambda in
+/// \cgalModels `RW_segmentation::Dihedral_difference`, a stored `Surface_mesh::Property_map<Edge_index, double>`, a lambda in
 /// `boost::make_function_property_map`; `examples/own_difference.cpp` shows three of a user's own.
 class Difference {};

@@ -5,7 +5,7 @@
 /// All functions are const and do not depend on the order of their arguments. Costs are never NaN; they need not rise
 /// when regions grow.
 ///
-/// Models: `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10).
+/// \cgalModels `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10).
 class MergeCost {
  public:
   /// What the cost must know of a region: areas, thickness, curvature moments. Default-constructible and copyable.

@@ -2,7 +2,7 @@
 ///
 /// Where to stop merging: chooses a level of a `Merge_tree` after all merges have been recorded.
 ///
-/// Models: `RW_segmentation::Segment_count_stop`, `RW_segmentation::Cost_threshold_stop`,
+/// \cgalModels `RW_segmentation::Segment_count_stop`, `RW_segmentation::Cost_threshold_stop`,
 /// `RW_segmentation::Cost_jump_stop`; any lambda, for example one that stops at the largest gap between costs.
 class StopPredicate {
  public:

@@ -7,7 +7,7 @@
 /// again with other arguments. A solver that fails, or cannot promise its accuracy, throws `std::runtime_error` with the
 /// reason; it never returns a wrong answer. A face from which no absorbing face can be reached has the potential 0.
 ///
-/// Models: `RW_segmentation::Star_mesh_elimination`, `RW_segmentation::Eigen_walk_solver`.
+/// \cgalModels `RW_segmentation::Star_mesh_elimination`, `RW_segmentation::Eigen_walk_solver`.
 class WalkSolver {
  public:
   /// Prepares for a graph: orderings and the like. The graph outlives the solver or the next `analyze`.
