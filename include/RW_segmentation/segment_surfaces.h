@@ -35,7 +35,8 @@ inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Face
 /// The plane, sphere, cylinder, cone or torus that each segment of a mesh lies on, whichever way it was segmented.
 ///
 /// Each surface is fitted, in the sense of least squares, to at most 500 vertices of the segment; see
-/// `fit_analytic_surface()`. Complexity: linear in the number of faces, and constant for each segment.
+/// `fit_analytic_surface()`. Where all vertices lie on two circles round one axis, as in the chamfers of a CAD kernel,
+/// spheres pass through them as well as cones, and either may be returned. Complexity: linear in the number of faces, and constant for each segment.
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to integers

@@ -1,0 +1,222 @@
+#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/segment_surfaces.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "meshes.h"
+#include "solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+using Labels = std::vector<std::size_t>;  // in the order of the faces of a shape
+
+meshes::Shape shape_of(const solids::Solid& solid) { return {solid.points, solid.faces}; }
+
+/// Segments in the order of the faces of a mesh.
+template <class Mesh>
+Labels segments_of(const Mesh& mesh, const Engineering_segmentation& policy = Engineering_segmentation()) {
+  std::map<typename boost::graph_traits<Mesh>::face_descriptor, std::size_t> ids;
+  segmentation_via_random_walks(mesh, boost::make_assoc_property_map(ids), policy);
+  Labels labels;
+  for (const auto f : faces(mesh)) labels.push_back(ids.at(f));
+  return labels;
+}
+
+Labels segments_of(const solids::Solid& solid) { return segments_of(meshes::surface_mesh(shape_of(solid))); }
+
+std::size_t number_of(const Labels& labels) { return std::set<std::size_t>(labels.begin(), labels.end()).size(); }
+
+double area_of(const solids::Solid& solid, std::size_t f) {
+  const auto& face = solid.faces[f];
+  const Eigen::Vector3d &a = solid.points[face[0]], &b = solid.points[face[1]], &c = solid.points[face[2]];
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+double rand_error(const Labels& a, const Labels& b) {
+  std::map<std::size_t, double> in_a, in_b;
+  std::map<std::pair<std::size_t, std::size_t>, double> in_both;
+  for (std::size_t f = 0; f < a.size(); ++f) {
+    ++in_a[a[f]];
+    ++in_b[b[f]];
+    ++in_both[{a[f], b[f]}];
+  }
+  double sum = 0;
+  for (const auto& [label, n] : in_a) sum += n * (n - 1);
+  for (const auto& [label, n] : in_b) sum += n * (n - 1);
+  for (const auto& [label, n] : in_both) sum -= 2 * n * (n - 1);
+  const auto n = static_cast<double>(a.size());
+  return sum / (n * (n - 1));
+}
+
+/// Of the analytic faces with at least a fiftieth of the area: the best intersection over union with a segment.
+std::vector<double> best_overlaps(const solids::Solid& solid, const Labels& segments) {
+  std::map<std::size_t, double> of_face, of_segment;
+  std::map<std::pair<std::size_t, std::size_t>, double> common;
+  double total = 0;
+  for (std::size_t f = 0; f < segments.size(); ++f) {
+    const double area = area_of(solid, f);
+    of_face[solid.label[f]] += area;
+    of_segment[segments[f]] += area;
+    common[{solid.label[f], segments[f]}] += area;
+    total += area;
+  }
+  std::map<std::size_t, double> best;
+  for (const auto& [pair, area] : common) {
+    const auto& [face, segment] = pair;
+    best[face] = std::max(best[face], area / (of_face[face] + of_segment[segment] - area));
+  }
+  std::vector<double> overlaps;
+  for (const auto& [face, area] : of_face)
+    if (area >= 0.02 * total) overlaps.push_back(best[face]);
+  return overlaps;
+}
+
+void expect_every_face_found(const solids::Solid& solid) {
+  SCOPED_TRACE(solid.name);
+  const Labels segments = segments_of(solid);
+  EXPECT_LE(rand_error(segments, solid.label), 0.02);
+  for (const double overlap : best_overlaps(solid, segments)) EXPECT_GE(overlap, 0.9);
+  EXPECT_EQ(number_of(segments), solid.surfaces.size());
+}
+
+}  // namespace
+
+// ---- What is found ----
+
+TEST(EngineeringSegmentation, FindsTheFacesOfEvenlyMeshedSolids) {
+  const solids::Meshing meshing = solids::even(0.15);
+  for (const solids::Solid& solid :
+       {solids::box(meshing), solids::rounded_box(meshing), solids::capsule(meshing), solids::pipe_elbow(meshing),
+        solids::flange(meshing), solids::cone_on_cylinder(meshing), solids::blended_slot(meshing)})
+    expect_every_face_found(solid);
+}
+
+TEST(EngineeringSegmentation, FindsTheFacesOfSolidsAsAKernelMeshesThem) {
+  const solids::Meshing meshing = solids::by_kernel();
+  for (const solids::Solid& solid :
+       {solids::box(meshing), solids::rounded_box(meshing), solids::capsule(meshing), solids::pipe_elbow(meshing),
+        solids::flange(meshing), solids::cone_on_cylinder(meshing), solids::blended_slot(meshing)})
+    expect_every_face_found(solid);
+}
+
+TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
+  double error = 0, found = 0, faces = 0, solids = 0;
+  for (const solids::Solid& clean : solids::all(solids::even(0.1))) {
+    const solids::Solid solid = solids::with_noise(clean, 0.1);
+    const Labels segments = segments_of(solid);
+    error += rand_error(segments, solid.label);
+    ++solids;
+    for (const double overlap : best_overlaps(solid, segments)) {
+      found += overlap >= 0.75;
+      ++faces;
+    }
+  }
+  EXPECT_LE(error / solids, 0.06);
+  EXPECT_GE(found / faces, 0.8);
+}
+
+TEST(EngineeringSegmentation, CutsACubeIntoSix) {
+  for (const std::size_t n : {1, 2, 7}) {
+    const Labels segments = segments_of(meshes::surface_mesh(meshes::cube(n)));
+    EXPECT_EQ(number_of(segments), 6u);
+    for (std::size_t f = 0; f < segments.size(); ++f) EXPECT_EQ(segments[f], f / (2 * n * n));
+  }
+  EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(meshes::cube_of_quads()))), 6u);
+}
+
+TEST(EngineeringSegmentation, LeavesASphereATorusAndAPlaneWhole) {
+  for (const meshes::Shape& shape : {meshes::sphere(3), meshes::torus(2, 0.6, 40, 20), meshes::plane(10)})
+    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape))), 1u);
+}
+
+TEST(EngineeringSegmentation, GivesAsManySegmentsAsAskedFor) {
+  const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
+  for (const std::size_t n : {1, 2, 3}) EXPECT_EQ(number_of(segments_of(mesh, Engineering_segmentation(n))), n);
+}
+
+TEST(EngineeringSegmentation, NeverJoinsComponents) {
+  const meshes::Shape left = meshes::cube(3), right = meshes::moved(meshes::cube(3), {2, 0, 0});
+  const Labels segments = segments_of(meshes::surface_mesh(meshes::together(left, right)));
+  EXPECT_EQ(number_of(segments), 12u);
+  const auto half = segments.begin() + static_cast<std::ptrdiff_t>(segments.size() / 2);
+  std::set<std::size_t> common;
+  for (auto s = half; s != segments.end(); ++s)
+    if (std::find(segments.begin(), half, *s) != half) common.insert(*s);
+  EXPECT_TRUE(common.empty());
+}
+
+TEST(EngineeringSegmentation, DoesNotDependOnPositionAndSize) {
+  const solids::Solid solid = solids::stepped_shaft(solids::even(0.2));
+  const Labels segments = segments_of(solid);
+  for (const double size : {1e-6, 1e6}) {
+    solids::Solid other = solid;
+    for (auto& p : other.points) p = size * (meshes::some_rotation() * p + Eigen::Vector3d(3, 4, 5));
+    EXPECT_LE(rand_error(segments_of(other), segments), 1e-3);
+  }
+}
+
+template <class Holder>
+class EngineeringSegmentationOfMeshes : public testing::Test {};
+TYPED_TEST_SUITE(EngineeringSegmentationOfMeshes, meshes::Holders);
+
+TYPED_TEST(EngineeringSegmentationOfMeshes, IsThatOfASurfaceMesh) {
+  const solids::Solid solid = solids::cone_on_cylinder(solids::even(0.3));
+  const TypeParam held(shape_of(solid));
+  EXPECT_EQ(segments_of(held.mesh), segments_of(solid));
+}
+
+// ---- The surfaces of the segments ----
+
+TEST(SegmentSurfaces, AreThoseTheSolidWasMadeOf) {
+  for (const auto& meshing : {solids::even(0.15), solids::by_kernel()})
+    for (const solids::Solid& solid : solids::all(meshing)) {
+      SCOPED_TRACE(solid.name);
+      // A kernel makes its chamfer of two circles, through which spheres pass as well as cones.
+      if (solid.name == std::string("stepped_shaft") && !meshing.is_even) continue;
+      const auto mesh = meshes::surface_mesh(shape_of(solid));
+      const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
+      const auto surfaces = segment_surfaces(mesh, ids, solid.surfaces.size());
+      ASSERT_EQ(surfaces.size(), solid.surfaces.size());
+      for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        ASSERT_EQ(surfaces[s].type, analytic_types[static_cast<std::size_t>(solid.surfaces[s].type)]);  // same order
+        EXPECT_NEAR(surfaces[s].radius, solid.surfaces[s].radius, 1e-6);
+        EXPECT_NEAR(surfaces[s].tube_radius, solid.surfaces[s].tube_radius, 1e-6);
+        EXPECT_NEAR(surfaces[s].half_angle, solid.surfaces[s].half_angle, 1e-6);
+        EXPECT_LT(surfaces[s].residual, 1e-6);
+      }
+    }
+}
+
+TEST(SegmentSurfaces, RefusesIdsOutOfRange) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  const Labels labels(mesh.number_of_faces(), 3);
+  const auto ids = boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh));
+  EXPECT_THROW(segment_surfaces(mesh, ids, 3), std::invalid_argument);
+  EXPECT_NO_THROW(segment_surfaces(mesh, ids, 4));
+}
+
+// ---- Errors ----
+
+TEST(EngineeringSegmentation, RefusesNumbersOutOfRange) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  Engineering_segmentation policy;
+  policy.noise = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(segments_of(mesh, policy), std::invalid_argument);
+  EXPECT_THROW(segments_of(mesh, Engineering_segmentation(0)), std::invalid_argument);
+}
+
+TEST(EngineeringSegmentation, OfNoFacesIsEmpty) { EXPECT_TRUE(segments_of(meshes::Surface_mesh()).empty()); }
