@@ -8,6 +8,10 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(RW_segmentation_development INTERFACE -Wall -Wextra -Wpedantic -Wconversion
     $<$<BOOL:${RW_SEGMENTATION_WARNINGS_AS_ERRORS}>:-Werror>)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC errs about these in optimised code of CGAL and Eigen.
+  target_compile_options(RW_segmentation_development INTERFACE -Wno-error=maybe-uninitialized)
+endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   # GoogleTest's typed test suites use such macros.
   target_compile_options(RW_segmentation_development INTERFACE -Wno-gnu-zero-variadic-macro-arguments)
