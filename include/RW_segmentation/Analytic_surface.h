@@ -61,7 +61,7 @@ struct Analytic_surface {
     const Eigen::Vector3d q = p - point;
     if (type == Surface_type::sphere) return q.normalized();
     const double height = q.dot(direction);
-    const Eigen::Vector3d outward = (q - height * direction).normalized();
+    Eigen::Vector3d outward = (q - height * direction).normalized();
     if (type == Surface_type::cylinder) return outward;
     if (type == Surface_type::cone) return std::cos(half_angle) * outward - std::sin(half_angle) * direction;
     return (q - radius * outward).normalized();
@@ -100,7 +100,7 @@ class Least_squares_surface {
  public:
   static constexpr int most_steps = 20;
 
-  Least_squares_surface(Analytic_surface surface, const std::vector<Eigen::Vector3d>& points)
+  Least_squares_surface(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points)
       : surface_(surface), points_(points) {}
 
   Analytic_surface fit(int steps = most_steps) {
