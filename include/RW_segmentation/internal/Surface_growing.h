@@ -117,24 +117,18 @@ class Surface_growing {
     // By chance, noisy vertices lie on a surface that was fitted to few of them.
     const std::vector<double> least_gains =
         tolerance.noise > 0 ? std::vector<double>{64, 24} : std::vector<double>{64, 12, 3};
-    for (std::size_t pass = 0; pass < least_gains.size(); ++pass) {
-      // Where no surface starts at a face, none starts beside it: on free forms most of the time would go there.
-      std::vector<char> is_hopeless(order.size(), false);
+    for (std::size_t pass = 0; pass < least_gains.size(); ++pass)
       for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1000 == 0)
           progress((static_cast<double>(pass) + static_cast<double>(i) / static_cast<double>(order.size())) /
                    static_cast<double>(least_gains.size()));
         const Index seed = order[i];
-        if (region_of_face_[seed] != none || is_hopeless[seed] || geometry_.normal[seed].isZero()) continue;
+        if (region_of_face_[seed] != none || geometry_.normal[seed].isZero()) continue;
         const Region region = best_region(seed, least_gains[pass]);
-        if (region.gain < least_gains[pass]) {
-          for (const Index f : neighbourhood(seed, smallest_start()).faces) is_hopeless[f] = true;
-          continue;
-        }
+        if (region.gain < least_gains[pass]) continue;
         for (const Index f : region.patch.faces) region_of_face_[f] = surfaces_.size();
         surfaces_.push_back(region.surface);
       }
-    }
   }
 
   /// Moves faces at the borders of regions to the neighbour whose surface they fit best. Faces of the remainder join a
@@ -322,12 +316,10 @@ class Surface_growing {
     return sum;
   }
 
-  /// The vertices of the smallest neighbourhood that a surface is fitted to.
-  std::size_t smallest_start() const { return tolerance_->noise > 0 ? 18 : 12; }
-
   /// The region about a face that explains most; a more complex surface must explain noticeably more.
   Region best_region(Index seed, double least_gain) {
-    const std::array<std::size_t, 2> sizes = {smallest_start(), 3 * smallest_start()};
+    const std::size_t smallest = tolerance_->noise > 0 ? 18 : 12;
+    const std::array<std::size_t, 2> sizes = {smallest, 3 * smallest};
     Region best;
     for (const std::size_t size : sizes) {
       const Patch start = neighbourhood(seed, size);
