@@ -6,6 +6,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Edge_values.h>
+#include <RW_segmentation/internal/read_segments.h>
 #include <RW_segmentation/merge_segments.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -53,18 +54,13 @@ template <class FaceListGraph, class SegmentIdMap, class NamedParameters = CGAL:
 std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                                                std::size_t number_of_segments, double noise = -1,
                                                const NamedParameters& np = CGAL::parameters::default_values()) {
-  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
-  static_assert(internal::is_readable_map<SegmentIdMap, face_descriptor>,
-                "segment_ids must be a readable property map from the mesh's face_descriptor to an integer.");
   constexpr std::size_t most_samples = 500;
   const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  std::vector<std::size_t> segment_of_face;
-  for (const face_descriptor f : graph.face_descriptors()) {
-    segment_of_face.push_back(static_cast<std::size_t>(get(segment_ids, f)));
-    if (segment_of_face.back() >= number_of_segments)
-      throw internal::argument_error("a segment id", segment_of_face.back(),
+  const std::vector<std::size_t> segment_of_face = internal::read_segments(graph, segment_ids);
+  for (const std::size_t segment : segment_of_face)
+    if (segment >= number_of_segments)
+      throw internal::argument_error("a segment id", segment,
                                      ("less than " + std::to_string(number_of_segments)).c_str());
-  }
 
   const internal::Surface_data data = internal::surface_data(mesh, graph, noise, np);
   const auto formula = data.formula(most_samples);
