@@ -4,6 +4,7 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
 #include "meshes.h"
 #include "solids.h"
 
@@ -46,21 +47,7 @@ double area_of(const solids::Solid& solid, std::size_t f) {
   return (b - a).cross(c - a).norm() / 2;
 }
 
-double rand_error(const Labels& a, const Labels& b) {
-  std::map<std::size_t, double> in_a, in_b;
-  std::map<std::pair<std::size_t, std::size_t>, double> in_both;
-  for (std::size_t f = 0; f < a.size(); ++f) {
-    ++in_a[a[f]];
-    ++in_b[b[f]];
-    ++in_both[{a[f], b[f]}];
-  }
-  double sum = 0;
-  for (const auto& [label, n] : in_a) sum += n * (n - 1);
-  for (const auto& [label, n] : in_b) sum += n * (n - 1);
-  for (const auto& [label, n] : in_both) sum -= 2 * n * (n - 1);
-  const auto n = static_cast<double>(a.size());
-  return sum / (n * (n - 1));
-}
+double rand_error(const Labels& a, const Labels& b) { return segmentation_measures::Overlaps(a, b).rand_index_error(); }
 
 /// Of the analytic faces with at least a fiftieth of the area: the best intersection over union with a segment.
 std::vector<double> best_overlaps(const solids::Solid& solid, const Labels& segments) {

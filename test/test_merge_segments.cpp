@@ -1,10 +1,15 @@
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Region_boundary.h>
+#include <RW_segmentation/Relative_boundary_cost.h>
+#include <RW_segmentation/Segment_hierarchy.h>
+#include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/merge_segments.h>
 
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
+#include "face_labels.h"
 #include "meshes.h"
 
 #include <cmath>
@@ -22,29 +27,6 @@ namespace {
 
 using meshes::Surface_mesh;
 using Labels = std::vector<std::size_t>;  // in the order of the faces of a shape
-
-/// Labels of the faces of a mesh that can be handed over as a property map.
-template <class Mesh>
-class Face_labels {
- public:
-  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
-
-  explicit Face_labels(const Mesh& mesh, const Labels& labels = {}) : mesh_(mesh) {
-    std::size_t i = 0;
-    for (const face_descriptor f : faces(mesh)) label_[f] = i < labels.size() ? labels[i++] : untouched;
-  }
-  auto map() { return boost::make_assoc_property_map(label_); }
-  Labels values() const {
-    Labels values;
-    for (const face_descriptor f : faces(mesh_)) values.push_back(label_.at(f));
-    return values;
-  }
-  static constexpr std::size_t untouched = 12345;
-
- private:
-  const Mesh& mesh_;
-  std::map<face_descriptor, std::size_t> label_;
-};
 
 /// Cells of faces around seeds that a generator draws: fragments as a walk might leave them.
 Labels cells(const Dual_graph& graph, std::size_t number, unsigned random_seed = 1) {

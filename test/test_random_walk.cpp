@@ -6,6 +6,7 @@
 #include <boost/property_map/function_property_map.hpp>
 
 #include <gtest/gtest.h>
+#include "face_labels.h"
 #include "meshes.h"
 #include "networks.h"
 
@@ -18,36 +19,6 @@
 using namespace RW_segmentation;
 
 namespace {
-
-/// The labels of a mesh as a map that a walk can write and a test can read, whatever the kind of mesh.
-template <class Mesh>
-class Labels {
- public:
-  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
-  explicit Labels(const Mesh& mesh) : graph_(mesh), values_(graph_.number_of_faces(), untouched) {}
-  static constexpr std::size_t untouched = 12345;
-
-  struct Map {
-    using key_type = face_descriptor;
-    using value_type = std::size_t;
-    using reference = std::size_t;
-    using category = boost::read_write_property_map_tag;
-    const Mesh_dual_graph<Mesh>* graph;
-    std::vector<std::size_t>* values;
-    friend void put(const Map& map, face_descriptor f, std::size_t label) {
-      (*map.values)[map.graph->index(f)] = label;
-    }
-    friend std::size_t get(const Map& map, face_descriptor f) { return (*map.values)[map.graph->index(f)]; }
-  };
-  Map map() { return {&graph_, &values_}; }
-  face_descriptor face(std::size_t i) const { return graph_.face(static_cast<Dual_graph::Index>(i)); }
-  const std::vector<std::size_t>& values() const { return values_; }
-  const Mesh_dual_graph<Mesh>& graph() const { return graph_; }
-
- private:
-  Mesh_dual_graph<Mesh> graph_;
-  std::vector<std::size_t> values_;
-};
 
 template <class Mesh>
 auto equal_conductances() {
@@ -69,7 +40,7 @@ TYPED_TEST_SUITE(Walk, meshes::Holders);
 TYPED_TEST(Walk, CutsTheLShapeAlongItsConcaveEdge) {
   const meshes::Shape shape = meshes::l_shape(4);
   const TypeParam held(shape);
-  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Face_labels<typename TypeParam::Mesh> labels(held.mesh);
   // One seed on the far end of each arm.
   std::size_t ends[2] = {0, 0};
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
@@ -95,7 +66,7 @@ TYPED_TEST(Walk, CutsTheLShapeAlongItsConcaveEdge) {
 TYPED_TEST(Walk, GivesTheSamePotentialsAsADenseSolve) {
   const TypeParam held(meshes::with_noise(meshes::sphere(2), 0.03));
   const auto conductance = dihedral_conductances(held.mesh);
-  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Face_labels<typename TypeParam::Mesh> labels(held.mesh);
   networks::Network network{labels.graph(), {}};
   for (const auto& e : labels.graph().edge_descriptors()) network.conductances.push_back(get(conductance, e));
   const std::vector<networks::Index> seeds = {3, 100, 200, 250};
@@ -111,7 +82,7 @@ TYPED_TEST(Walk, GivesTheSamePotentialsAsADenseSolve) {
 TYPED_TEST(Walk, GivesComponentsWithoutASeedTheNextUnusedLabels) {
   const TypeParam held(meshes::together(meshes::together(meshes::cube(), meshes::moved(meshes::cube(), {3, 0, 0})),
                                         meshes::moved(meshes::plane(1), {0, 0, 5})));
-  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Face_labels<typename TypeParam::Mesh> labels(held.mesh);
   Random_walk walk(held.mesh, equal_conductances<typename TypeParam::Mesh>());
   walk.add_seed(labels.face(15), 7);
   walk.add_seed(labels.face(18), 3);
@@ -125,8 +96,8 @@ TYPED_TEST(Walk, GivesComponentsWithoutASeedTheNextUnusedLabels) {
 
 TYPED_TEST(Walk, ReturnsContiguousIdsFromTheFreeFunction) {
   const TypeParam held(meshes::torus(2, 0.7, 20, 10));
-  Labels<typename TypeParam::Mesh> labels(held.mesh);
-  using Face = typename Labels<typename TypeParam::Mesh>::face_descriptor;
+  Face_labels<typename TypeParam::Mesh> labels(held.mesh);
+  using Face = typename Face_labels<typename TypeParam::Mesh>::face_descriptor;
   const std::vector<std::pair<Face, std::size_t>> seeds = {
       {labels.face(0), 1000000}, {labels.face(100), 4}, {labels.face(200), 4}, {labels.face(300), 17}};
   EXPECT_EQ(segmentation_from_seeds(held.mesh, dihedral_conductances(held.mesh), seeds, labels.map()), 3u);
@@ -141,7 +112,7 @@ TYPED_TEST(Walk, ReturnsContiguousIdsFromTheFreeFunction) {
 
 TYPED_TEST(Walk, MakesConnectedSegmentsOfTwoLabels) {
   const TypeParam held(meshes::with_noise(meshes::torus(2, 0.8, 40, 20), 0.05));
-  Labels<typename TypeParam::Mesh> labels(held.mesh);
+  Face_labels<typename TypeParam::Mesh> labels(held.mesh);
   Random_walk walk(held.mesh, dihedral_conductances(held.mesh));
   walk.add_seed(labels.face(10), 0);
   walk.add_seed(labels.face(900), 1);
@@ -159,7 +130,7 @@ TEST(RandomWalk, DoesNotDependOnScalePlaceRotationOrOrderOfFaces) {
   const std::vector<std::size_t> order = meshes::random_order(shape.faces.size());
   const auto segment = [](const meshes::Shape& s, std::size_t a, std::size_t b) {
     const auto mesh = meshes::surface_mesh(s);
-    Labels<meshes::Surface_mesh> labels(mesh);
+    Face_labels<meshes::Surface_mesh> labels(mesh);
     Random_walk walk(mesh, dihedral_conductances(mesh));
     walk.add_seed(labels.face(a), 0);
     walk.add_seed(labels.face(b), 1);
@@ -189,7 +160,7 @@ TEST(RandomWalk, SegmentsAPlaneByDistanceWhetherRotatedOrNot) {
   for (const bool rotated : {false, true}) {
     const meshes::Shape plane = meshes::plane(11);
     const auto mesh = meshes::surface_mesh(rotated ? meshes::transformed(plane, meshes::some_rotation()) : plane);
-    Labels<meshes::Surface_mesh> labels(mesh);
+    Face_labels<meshes::Surface_mesh> labels(mesh);
     Random_walk walk(mesh, dihedral_conductances(mesh));
     walk.add_seed(labels.face(0), 0);
     walk.add_seed(labels.face(241), 1);
@@ -275,7 +246,7 @@ TEST(SeedEditing, StaysRightWithoutACap) {
 
 TEST(SeedEditing, ChangesNothingWhenASeedIsAddedAndRemoved) {
   const auto mesh = meshes::surface_mesh(meshes::with_noise(meshes::sphere(4), 0.01));
-  Labels<meshes::Surface_mesh> before(mesh), after(mesh);
+  Face_labels<meshes::Surface_mesh> before(mesh), after(mesh);
   Random_walk walk(mesh, dihedral_conductances(mesh));
   for (std::size_t l = 0; l < 5; ++l) walk.add_seed(before.face(1000 * l), l);
   walk.segment(before.map());
@@ -315,7 +286,7 @@ TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
 TEST(SeedEditing, FollowsSeedsThroughSeveralComponents) {
   const auto mesh =
       meshes::surface_mesh(meshes::together(meshes::sphere(2), meshes::moved(meshes::sphere(2), {9, 0, 0})));
-  Labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
+  Face_labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
   Random_walk walk(mesh, dihedral_conductances(mesh));
   const auto check = [&] {
     walk.segment(labels.map());
@@ -344,7 +315,7 @@ TEST(SeedEditing, FollowsSeedsThroughSeveralComponents) {
 
 TEST(SeedEditing, AnswersStrokesOfHundredsOfFaces) {
   const auto mesh = meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 0.7, 60, 30), 0.02));
-  Labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
+  Face_labels<meshes::Surface_mesh> labels(mesh), fresh(mesh);
   Random_walk walk(mesh, dihedral_conductances(mesh));
   for (std::size_t f = 0; f < 300; ++f) walk.add_seed(labels.face(f), 0);
   for (std::size_t f = 1500; f < 1800; ++f) walk.add_seed(labels.face(f), 1);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include "../benchmark/segmentation_measures.h"
+#include "face_labels.h"
 #include "meshes.h"
 
 #include <algorithm>
@@ -19,38 +20,10 @@ using namespace RW_segmentation;
 
 namespace {
 
-/// The ids of a mesh's faces in the order of `faces(mesh)`, whatever the kind of mesh.
-template <class Mesh>
-class Ids {
- public:
-  using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
-  static constexpr std::size_t untouched = 12345;
-
-  explicit Ids(const Mesh& mesh) : graph_(mesh), values_(graph_.number_of_faces(), untouched) {}
-
-  struct Map {
-    using key_type = face_descriptor;
-    using value_type = std::size_t;
-    using reference = std::size_t;
-    using category = boost::read_write_property_map_tag;
-    const Mesh_dual_graph<Mesh>* graph;
-    std::vector<std::size_t>* values;
-    friend void put(const Map& map, face_descriptor f, std::size_t id) { (*map.values)[map.graph->index(f)] = id; }
-    friend std::size_t get(const Map& map, face_descriptor f) { return (*map.values)[map.graph->index(f)]; }
-  };
-  Map map() { return {&graph_, &values_}; }
-  face_descriptor face(std::size_t i) const { return graph_.face(static_cast<Dual_graph::Index>(i)); }
-  const std::vector<std::size_t>& values() const { return values_; }
-
- private:
-  Mesh_dual_graph<Mesh> graph_;
-  std::vector<std::size_t> values_;
-};
-
 template <class Policy = Automatic_segmentation>
 std::vector<std::size_t> segments_of(const meshes::Shape& shape, const Policy& policy = Policy()) {
   const auto mesh = meshes::surface_mesh(shape);
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   segmentation_via_random_walks(mesh, ids.map(), policy);
   return ids.values();
 }
@@ -75,7 +48,7 @@ TYPED_TEST_SUITE(Automatic, meshes::Holders);
 TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
   const meshes::Shape shape = meshes::two_spheres_with_neck(2.0001, 0.2, 48);
   const TypeParam held(shape);
-  Ids<typename TypeParam::Mesh> ids(held.mesh);
+  Face_labels<typename TypeParam::Mesh> ids(held.mesh);
   EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 2u);
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {  // faces come from the lowest to the highest
     const double z = shape.points[shape.faces[f][0]].z();
@@ -87,7 +60,7 @@ TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
 TYPED_TEST(Automatic, LeavesASphereAndAPlaneWhole) {
   for (const meshes::Shape& shape : {meshes::sphere(4), meshes::plane(20)}) {
     const TypeParam held(shape);
-    Ids<typename TypeParam::Mesh> ids(held.mesh);
+    Face_labels<typename TypeParam::Mesh> ids(held.mesh);
     EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 1u);
     EXPECT_EQ(number_of(ids.values()), 1u);
   }
@@ -98,7 +71,7 @@ TYPED_TEST(Automatic, NeverJoinsComponents) {
   const meshes::Shape shape = meshes::together(meshes::together(one, meshes::moved(one, {3, 0, 0})),
                                                meshes::moved(meshes::plane(3), {0, 0, 5}));
   const TypeParam held(shape);
-  Ids<typename TypeParam::Mesh> ids(held.mesh);
+  Face_labels<typename TypeParam::Mesh> ids(held.mesh);
   EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 3u);
   const auto& id = ids.values();
   for (std::size_t f = 0; f < id.size(); ++f) EXPECT_EQ(id[f], id[f < 320 ? 0 : f < 640 ? 320 : 640]);
@@ -108,7 +81,7 @@ TYPED_TEST(Automatic, NeverJoinsComponents) {
 
 TYPED_TEST(Automatic, GivesEveryNumberOfSegmentsExactlyAndNested) {
   const TypeParam held(dumbbell(20));
-  Ids<typename TypeParam::Mesh> ids(held.mesh), finer(held.mesh);
+  Face_labels<typename TypeParam::Mesh> ids(held.mesh), finer(held.mesh);
   std::vector<std::size_t> before;
   const auto hierarchy = hierarchy_via_random_walks(held.mesh);
   for (std::size_t n = 1; n <= hierarchy.number_of_fragments(); ++n) {
@@ -126,8 +99,9 @@ TYPED_TEST(Automatic, GivesEveryNumberOfSegmentsExactlyAndNested) {
 
 TYPED_TEST(Automatic, TakesTheUsersSeedsAmongItsOwn) {
   const TypeParam held(dumbbell(20));
-  Ids<typename TypeParam::Mesh> ids(held.mesh);
-  const std::vector<typename Ids<typename TypeParam::Mesh>::face_descriptor> given = {ids.face(100), ids.face(105)};
+  Face_labels<typename TypeParam::Mesh> ids(held.mesh);
+  const std::vector<typename Face_labels<typename TypeParam::Mesh>::face_descriptor> given = {ids.face(100),
+                                                                                              ids.face(105)};
   const auto hierarchy = hierarchy_via_random_walks(held.mesh, Automatic_segmentation(), given);
   EXPECT_EQ(hierarchy.report().seeds, 42u);
   hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), ids.map());
@@ -199,7 +173,7 @@ TEST(AutomaticSegmentation, CutsTheArmsOfAnLApartWhenAskedForTwo) {
 TEST(AutomaticSegmentation, IsTheSameEveryTime) {
   const auto mesh = meshes::data_mesh("elephant.off");
   if (!mesh) GTEST_SKIP() << "CGAL's data meshes are not installed";
-  Ids<meshes::Surface_mesh> first(*mesh), second(*mesh);
+  Face_labels<meshes::Surface_mesh> first(*mesh), second(*mesh);
   const std::size_t segments = segmentation_via_random_walks(*mesh, first.map());
   segmentation_via_random_walks(*mesh, second.map());
   EXPECT_EQ(first.values(), second.values());
@@ -217,7 +191,7 @@ TEST(PaperSegmentation, CutsTwoSpheresApartWhenAskedForTwo) {
 
 TEST(AutomaticPathologies, AnEmptyMeshHasNoSegments) {
   const meshes::Surface_mesh mesh;
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   EXPECT_EQ(segmentation_via_random_walks(mesh, ids.map()), 0u);
 }
 
@@ -245,7 +219,7 @@ TEST(AutomaticPathologies, QuadsAreSegmentedLikeTriangles) {
 
 TEST(AutomaticPathologies, AWrongNumberOfSegmentsIsAnErrorThatWritesNothing) {
   const auto mesh = meshes::surface_mesh(meshes::sphere(1));
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   for (const std::size_t n : {std::size_t(0), std::size_t(41), std::size_t(1000000)})
     EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), Automatic_segmentation(n)), std::invalid_argument);
   EXPECT_EQ(ids.values(), std::vector<std::size_t>(80, ids.untouched));
@@ -255,7 +229,7 @@ TEST(AutomaticPathologies, ACoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex
   meshes::Shape shape = meshes::sphere(1);
   shape.points[7].y() = std::numeric_limits<double>::quiet_NaN();
   const auto mesh = meshes::surface_mesh(shape);
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   try {
     segmentation_via_random_walks(mesh, ids.map());
     ADD_FAILURE() << "no error";
@@ -267,7 +241,7 @@ TEST(AutomaticPathologies, ACoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex
 
 TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
   const auto mesh = meshes::surface_mesh(meshes::sphere(1));
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   Automatic_segmentation policy;
   policy.sigma = 0;
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
@@ -282,14 +256,14 @@ TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
 
 TEST(AutomaticPathologies, TheCallbackSeesProgressAndCancels) {
   const auto mesh = meshes::surface_mesh(dumbbell());
-  Ids<meshes::Surface_mesh> ids(mesh);
+  Face_labels<meshes::Surface_mesh> ids(mesh);
   std::vector<double> seen;
   const auto run = [&](double end) {
     const std::function<bool(double)> callback = [&seen, end](double fraction) {
       seen.push_back(fraction);
       return fraction < end;
     };
-    const std::vector<Ids<meshes::Surface_mesh>::face_descriptor> none;
+    const std::vector<Face_labels<meshes::Surface_mesh>::face_descriptor> none;
     segmentation_via_random_walks(mesh, ids.map(), Automatic_segmentation(), none,
                                   CGAL::parameters::callback(callback));
   };
