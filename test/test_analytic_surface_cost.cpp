@@ -1,0 +1,61 @@
+#include <RW_segmentation/Analytic_surface_cost.h>
+#include <RW_segmentation/merge_segments.h>
+
+#include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
+#include "face_labels.h"
+#include "meshes.h"
+#include "solids.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+using namespace RW_segmentation;
+using meshes::Surface_mesh;
+
+namespace {
+
+using Labels = std::vector<std::size_t>;  // in the order of the faces of a shape
+
+meshes::Shape shape_of(const solids::Solid& solid) { return {solid.points, solid.faces}; }
+
+/// The faces of a solid, each cut in two halfway along its longest extent.
+Labels halves_of_faces(const solids::Solid& solid) {
+  std::vector<Eigen::AlignedBox3d> box(solid.surfaces.size());
+  const auto centroid = [&](std::size_t f) {
+    const auto& face = solid.faces[f];
+    return Eigen::Vector3d((solid.points[face[0]] + solid.points[face[1]] + solid.points[face[2]]) / 3);
+  };
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) box[solid.label[f]].extend(centroid(f));
+  Labels halves;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    Eigen::Index axis = 0;
+    const Eigen::AlignedBox3d& whole = box[solid.label[f]];
+    whole.sizes().maxCoeff(&axis);
+    halves.push_back(2 * solid.label[f] + (centroid(f)[axis] > whole.center()[axis]));
+  }
+  return halves;
+}
+
+Labels merged(const solids::Solid& solid, const Labels& fragments) {
+  const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+  Face_labels<Surface_mesh> labels(mesh, fragments);
+  const auto hierarchy =
+      merge_segments(mesh, labels.map(), Edge_sharpness<Surface_mesh>(mesh), Analytic_surface_cost<Surface_mesh>(mesh));
+  hierarchy.segments(Cost_threshold_stop(1), labels.map());
+  return labels.values();
+}
+
+}  // namespace
+
+TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceAndNothingElse) {
+  const solids::Meshing meshing = solids::even(0.1);
+  for (const solids::Solid& solid : {solids::box(meshing), solids::capsule(meshing), solids::pipe_elbow(meshing),
+                                     solids::cone_on_cylinder(meshing), solids::blended_slot(meshing)}) {
+    const Labels result = merged(solid, halves_of_faces(solid));
+    EXPECT_LE(segmentation_measures::Overlaps(result, solid.label).rand_index_error(), 1e-12) << solid.name;
+  }
+}
