@@ -8,6 +8,11 @@
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
 
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/property_map.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -17,6 +22,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -133,7 +139,7 @@ void measure(const std::string& name, Mesh mesh, const Automatic_segmentation& p
 
 // ---- Solids whose joints are known ----
 
-Mesh mesh_of(const solids::Solid& solid, const std::vector<std::size_t>& label) {
+Mesh mesh_of(const solids::Solid& solid) {
   Mesh mesh;
   for (const auto& p : solid.points) mesh.add_vertex(Mesh::Point(p.x(), p.y(), p.z()));
   for (const auto& face : solid.faces) {
@@ -142,43 +148,58 @@ Mesh mesh_of(const solids::Solid& solid, const std::vector<std::size_t>& label) 
     mesh.add_face(corners);
   }
   Labels map = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
-  for (const auto f : mesh.faces()) map[f] = label[f];
+  for (const auto f : mesh.faces()) map[f] = solid.label[f];
   return mesh;
 }
 
-/// Labels that miss the joints by a face here and there: every second face at a joint, chosen by chance, goes to the
-/// other side, and those that this leaves alone go with their neighbours.
-std::vector<std::size_t> jagged_labels(const Mesh& mesh, const std::vector<std::size_t>& true_label) {
+/// The faces that are cut off from the largest piece of their segment.
+std::vector<Mesh::Face_index> cut_off_faces(const Mesh& mesh, const Labels& label) {
+  std::vector<bool> is_boundary = boundary_edges(mesh, label);
+  std::vector<std::size_t> piece(mesh.number_of_faces());
+  const std::size_t pieces = CGAL::Polygon_mesh_processing::connected_components(
+      mesh, CGAL::make_property_map(piece),
+      CGAL::parameters::edge_is_constrained_map(
+          boost::make_function_property_map<Mesh::Edge_index, bool>([&](auto e) { return is_boundary[e]; })));
+  std::vector<std::size_t> size(pieces, 0);
+  for (const std::size_t p : piece) ++size[p];
+  std::map<std::size_t, std::size_t> largest;  // piece of a label
+  for (const auto f : mesh.faces()) {
+    const auto [place, is_new] = largest.try_emplace(label[f], piece[f]);
+    if (size[piece[f]] > size[place->second]) place->second = piece[f];
+  }
+  std::vector<Mesh::Face_index> result;
+  for (const auto f : mesh.faces())
+    if (piece[f] != largest[label[f]]) result.push_back(f);
+  return result;
+}
+
+/// Moves the boundaries by a face here and there: every second face at a joint, chosen by chance, goes to the other
+/// side. Where that would tear a segment into pieces it is taken back.
+void make_jagged(const Mesh& mesh, const Labels& label) {
   std::mt19937 random(1);
-  std::vector<std::size_t> label = true_label;
-  const auto labels_beside = [&](Mesh::Face_index f, const std::vector<std::size_t>& labels) {
-    std::vector<std::size_t> result;
-    for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh))
-      result.push_back(labels[mesh.face(mesh.opposite(h))]);
-    std::sort(result.begin(), result.end());
-    return result;
+  std::vector<std::size_t> true_label;
+  for (const auto f : mesh.faces()) true_label.push_back(label[f]);
+  const auto for_each_beside = [&](Mesh::Face_index f, const auto& visit) {
+    for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh)) visit(mesh.face(mesh.opposite(h)));
   };
   for (const auto f : mesh.faces())
-    for (const std::size_t other : labels_beside(f, true_label))
-      if (other != true_label[f] && random() % 2 == 0) label[f] = other;
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (const auto f : mesh.faces()) {
-      const std::vector<std::size_t> beside = labels_beside(f, label);
-      if (std::count(beside.begin(), beside.end(), label[f]) > 0) continue;
-      label[f] = beside[1];  // the one that there are two of, if there is
-      is_changed = true;
+    for_each_beside(f, [&](Mesh::Face_index g) {
+      if (true_label[g] != true_label[f] && random() % 2 == 0) label[f] = true_label[g];
+    });
+  for (auto faces = cut_off_faces(mesh, label); !faces.empty(); faces = cut_off_faces(mesh, label))
+    for (const auto f : faces) {
+      label[f] = true_label[f];
+      for_each_beside(f, [&](Mesh::Face_index g) { label[g] = true_label[g]; });
     }
-  }
-  return label;
 }
 
 void measure_joints(const solids::Solid& solid, const Arguments& arguments, std::vector<Result>& results) {
-  const Mesh exact = mesh_of(solid, solid.label);
+  const Mesh exact = mesh_of(solid);
   const Labels true_label = exact.property_map<Mesh::Face_index, std::size_t>("f:segment").first;
   const Segments joint = boundary(exact, true_label);
-  const Mesh mesh = mesh_of(solids::with_noise(solid, arguments.noise), jagged_labels(exact, solid.label));
+  const Mesh mesh = mesh_of(solids::with_noise(solid, arguments.noise));
   const Labels label = mesh.property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  make_jagged(mesh, label);
   const Refined refined = refine(mesh, 1);
 
   const double edge = mean_edge_length(exact);
