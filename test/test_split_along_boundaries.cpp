@@ -131,6 +131,22 @@ TYPED_TEST(SplitAlongBoundaries, LabelsWithoutAnyOrderSurvive) {
   }
 }
 
+TEST(SplitAlongBoundariesOf, TatteredMeshesKeepSurfaceAndSegments) {
+  for (unsigned seed = 0; seed < 60; ++seed)
+    for (const Shape& shape : {meshes::plane(5), meshes::sphere(1)}) {
+      std::mt19937 random(seed);
+      Surface_mesh mesh = meshes::surface_mesh(shape);
+      for (std::size_t f = 0; f < shape.faces.size(); ++f)
+        if (random() % 5 == 0)  // some vertices are left with several fans of faces
+          CGAL::Euler::remove_face(mesh.halfedge(Surface_mesh::Face_index(static_cast<Surface_mesh::size_type>(f))),
+                                   mesh);
+      Labels chaos;
+      for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) chaos.push_back(random() % 3);
+      Face_labels<Surface_mesh> labels(mesh, chaos);
+      refine(mesh, labels);
+    }
+}
+
 TEST(SplitAlongBoundariesOf, NewVerticesLieOnOldEdges) {
   const Shape shape = bumpy_torus();
   const Surface_mesh before = meshes::surface_mesh(shape);

@@ -125,8 +125,9 @@ class Refinement_step {
     for (const Index h : refinement_.whole_edges()) put(constrained_, edge(descriptor(h), mesh_), true);
 
     // Descriptors by number are good only as long as the faces are triangles.
-    std::vector<vertex_descriptor> vertex_of;
-    for (const auto v : vertices(mesh_)) vertex_of.push_back(v);
+    std::vector<vertex_descriptor> vertex_of(surface_.number_of_vertices());
+    for (Index h = 0; h < surface_.number_of_halfedges(); ++h)
+      vertex_of[surface_.source(h)] = source(descriptor(h), mesh_);
     std::vector<halfedge_descriptor> into_first_corner;
     for (const auto& cut : refinement_.cut_faces()) into_first_corner.push_back(descriptor(3 * cut.face + 2));
     split_edges(vertex_of);

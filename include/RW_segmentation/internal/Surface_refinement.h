@@ -166,9 +166,10 @@ class Surface_refinement {
     whole_edges_ = std::move(edges);
   }
 
+  /// A line along an edge between two faces.
   bool add_edge(Index from, Index to, std::size_t curve) {
     return surface_.any_leaving(from, [&](Index h) {
-      if (surface_.target(h) == to)
+      if (surface_.target(h) == to && !surface_.is_border(h))
         edge_lines_.emplace_back(h, curve);
       else if (surface_.source(Triangle_surface::previous(h)) == to &&
                !surface_.is_border(Triangle_surface::previous(h)))

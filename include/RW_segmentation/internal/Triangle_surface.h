@@ -24,8 +24,9 @@ namespace RW_segmentation::internal {
 
 /// A triangle mesh in arrays: what curves are moved on and cut by.
 ///
-/// Faces are numbered as in a `Mesh_dual_graph`, vertices in the order of `vertices(mesh)`. Halfedge 3 f + k runs along
-/// face f from its corner k to the next one; corner 0 is the source of `halfedge(f, mesh)`.
+/// Faces are numbered as in a `Mesh_dual_graph`. Halfedge 3 f + k runs along face f from its corner k to the next one;
+/// corner 0 is the source of `halfedge(f, mesh)`. Where several fans of faces touch in a vertex, each has a vertex of its
+/// own: going round one meets all its faces.
 class Triangle_surface {
  public:
   using Index = std::uint32_t;
@@ -39,7 +40,17 @@ class Triangle_surface {
         source_(std::move(sources)),
         twin_(std::move(twins)),
         outgoing_(point_.size(), none) {
-    for (Index h = 0; h < number_of_halfedges(); ++h) outgoing_[source(h)] = h;
+    std::vector<char> is_met(number_of_halfedges(), false);
+    for (Index h = 0; h < number_of_halfedges(); ++h) {
+      if (is_met[h]) continue;
+      const Index vertex = outgoing_[source(h)] == none ? source(h) : one_more_at(source(h));
+      outgoing_[vertex] = h;
+      any_leaving(vertex, [&](Index leaving) {
+        is_met[leaving] = true;
+        source_[leaving] = vertex;
+        return false;
+      });
+    }
   }
 
   std::size_t number_of_faces() const { return source_.size() / 3; }
@@ -96,6 +107,12 @@ class Triangle_surface {
   }
 
  private:
+  Index one_more_at(Index vertex) {
+    point_.push_back(Eigen::Vector3d(point_[vertex]));
+    outgoing_.push_back(none);
+    return static_cast<Index>(outgoing_.size() - 1);
+  }
+
   std::vector<Eigen::Vector3d> point_;
   std::vector<Index> source_, twin_, outgoing_;
 };
