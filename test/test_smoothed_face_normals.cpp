@@ -281,6 +281,11 @@ TEST(Smoothed_face_normals, OfAPartMuchSmallerThanTheRadiusAreItsOwn) {
   for (std::size_t f = 0; f < own.size(); ++f) EXPECT_LT((normals[f] - own[f]).norm(), 1e-9);
 }
 
+TEST(Smoothed_face_normals, AreOneDirectionForEachComponentWhereTheRadiusIsHuge) {
+  const Normals normals = smoothed(meshes::folded_strip(1, 4), without_widening(1e100));
+  for (const Eigen::Vector3d& n : normals) EXPECT_LT((n - normals[0]).norm(), 1e-2);
+}
+
 TEST(Smoothed_face_normals, OfAMeshWithoutFacesAreNone) { EXPECT_TRUE(smoothed(meshes::Surface_mesh()).empty()); }
 
 TEST(Smoothed_face_normals, OfAMeshWithoutAreaAreZero) {
