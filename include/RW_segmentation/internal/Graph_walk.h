@@ -171,14 +171,14 @@ class Graph_walk {
       for (const Column& column : columns_)
         if (label_of_.at(column.face) == label)
           for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += column.potential[f];
-      for (double& p : sum) p = std::min(p, 1.);
-      return sum;
+    } else {
+      Potentials boundary(static_cast<Eigen::Index>(base_.size()), 1), result;
+      for (std::size_t r = 0; r < base_.size(); ++r)
+        boundary(static_cast<Eigen::Index>(r), 0) = label_of_.at(base_[r]) == label;
+      solver_.potentials(boundary, result);
+      std::copy_n(result.data(), sum.size(), sum.begin());
     }
-    Potentials boundary(static_cast<Eigen::Index>(base_.size()), 1), result;
-    for (std::size_t r = 0; r < base_.size(); ++r)
-      boundary(static_cast<Eigen::Index>(r), 0) = label_of_.at(base_[r]) == label;
-    solver_.potentials(boundary, result);
-    std::copy_n(result.data(), sum.size(), sum.begin());
+    for (double& p : sum) p = std::min(p, 1.);
     return sum;
   }
 
