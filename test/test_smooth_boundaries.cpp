@@ -141,6 +141,27 @@ TEST(SmoothBoundaries, NoPointLeavesItsBoundaryByMoreThanAllowed) {
   }
 }
 
+TEST(SmoothBoundaries, AreSmoothedWithinTheirCorridorHoweverHugeTheNumbers) {
+  const Shape shape = meshes::sphere(3);
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  Boundary_smoothing smoothing;
+  smoothing.length = smoothing.tension = 1e100;
+  const auto labels = random_cells(shape, 2);
+  const auto jagged = jagged_curves_of(mesh, labels), curves = curves_of(mesh, labels, smoothing);
+  ASSERT_EQ(curves.size(), jagged.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const auto corners = points_of(jagged[c]);
+    EXPECT_TRUE(curves[c].is_smoothed);
+    EXPECT_LT(turning(points_of(curves[c]), true), turning(corners, true) / 2);
+    for (const Eigen::Vector3d& p : points_of(curves[c])) {
+      double distance = distance_to_line(p, corners.back(), corners.front());
+      for (std::size_t i = 1; i < corners.size(); ++i)
+        distance = std::min(distance, distance_to_line(p, corners[i - 1], corners[i]));
+      EXPECT_LE(distance, mean_edge_length(mesh));
+    }
+  }
+}
+
 TEST(SmoothBoundaries, BranchPointsStay) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);

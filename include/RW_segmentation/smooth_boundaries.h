@@ -59,11 +59,12 @@ inline void require_boundary_smoothing_numbers(const Boundary_smoothing& smoothi
 
 /// The numbers of the policy in the unit box.
 inline Curve_smoothing_numbers curve_smoothing_numbers(const Boundary_smoothing& smoothing, double mean_edge_length) {
+  constexpr double stiffest = 1e12;  // than which a spline cannot be told from a straight one
   const double steps = static_cast<double>(std::max<std::size_t>(smoothing.steps, 1));
   const double length = smoothing.length;
   Curve_smoothing_numbers numbers{};
-  numbers.stiffness = std::pow(length, 4) / steps;
-  numbers.tension = smoothing.tension * length * length / steps;
+  numbers.stiffness = std::min(std::pow(length, 4) / steps, stiffest);
+  numbers.tension = std::min(smoothing.tension * length * length / steps, stiffest);
   numbers.steps = smoothing.steps;
   numbers.corridor = smoothing.largest_displacement * mean_edge_length;
   numbers.longest_step = mean_edge_length / 2;

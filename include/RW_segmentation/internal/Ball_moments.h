@@ -161,7 +161,9 @@ inline Ball_moments::Chord Ball_moments::chord(const Eigen::Vector3d& a, const E
   const bool from_inside = inside(a), to_inside = inside(b);
   if (from_inside && to_inside) return {0, 1};
   const Eigen::Vector3d e = b - a;
-  const double ee = e.squaredNorm(), middle = -a.dot(e) / ee, within = 1 - (a + middle * e).squaredNorm();
+  const double ee = e.squaredNorm();
+  if (ee == 0) return {1, 0};
+  const double middle = -a.dot(e) / ee, within = 1 - (a + middle * e).squaredNorm();
   const double half = std::sqrt(std::max(within, 0.) / ee);
   if (from_inside) return {0, std::clamp(middle + half, 0., 1.)};
   if (to_inside) return {std::clamp(middle - half, 0., 1.), 1};

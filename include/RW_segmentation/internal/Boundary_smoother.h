@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/Lifted_surface.h>
 #include <RW_segmentation/internal/Surface_refinement.h>
 #include <RW_segmentation/internal/Triangle_surface.h>
+#include <RW_segmentation/internal/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -69,8 +70,7 @@ class Boundary_smoother {
     const std::size_t size = chain.halfedges.size();
     const auto direction = [&](std::size_t i) {
       const Index h = chain.halfedges[i % size];
-      return Eigen::Vector3d(
-          (surface_.point(surface_.target(h)) - surface_.point(surface_.source(h))).stableNormalized());
+      return unit_vector(surface_.point(surface_.target(h)) - surface_.point(surface_.source(h)));
     };
     const auto goes_on = [&](std::size_t i) {  // from an edge to the next
       return is_sharp[chain.halfedges[i % size]] && is_sharp[chain.halfedges[(i + 1) % size]] &&

@@ -4,6 +4,7 @@
 #include <RW_segmentation/internal/Boundary_chain.h>
 #include <RW_segmentation/internal/Curve_smoothing.h>
 #include <RW_segmentation/internal/Triangle_surface.h>
+#include <RW_segmentation/internal/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -151,12 +152,12 @@ class Curve_tracing {
 
   Eigen::Vector3d normal(const Curve_point& p) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    if (!p.is_fixed()) return area_vector(p.place.face).stableNormalized();
+    if (!p.is_fixed()) return unit_vector(area_vector(p.place.face));
     surface_.any_leaving(p.vertex, [&](Index h) {
       sum += area_vector(Triangle_surface::face(h));
       return false;
     });
-    return sum.stableNormalized();
+    return unit_vector(sum);
   }
 
   bool is_at_corner(Index vertex, Index face) const {

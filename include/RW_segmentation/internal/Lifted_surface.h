@@ -2,6 +2,7 @@
 #define RW_SEGMENTATION_INTERNAL_LIFTED_SURFACE_H
 
 #include <RW_segmentation/internal/Triangle_surface.h>
+#include <RW_segmentation/internal/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -36,8 +37,7 @@ class Lifted_surface {
               .cross(surface.point(surface.source(Triangle_surface::previous(h))) - surface.point(surface.source(h)));
       lifted_[surface.source(h)].tail<3>() += area.norm() * normals[f];
     }
-    for (Index v = 0; v < lifted_.size(); ++v)
-      lifted_[v] << surface.point(v), w * lifted_[v].tail<3>().stableNormalized();
+    for (Index v = 0; v < lifted_.size(); ++v) lifted_[v] << surface.point(v), w * unit_vector(lifted_[v].tail<3>());
   }
 
   const Point& at(Index vertex) const { return lifted_[vertex]; }

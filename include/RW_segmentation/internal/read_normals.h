@@ -4,6 +4,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Edge_values.h>
+#include <RW_segmentation/internal/unit_vector.h>
 
 #include <CGAL/number_utils.h>
 
@@ -31,7 +32,7 @@ std::vector<Eigen::Vector3d> read_normals(const Mesh_dual_graph<FaceListGraph>& 
     if (!normal.allFinite())
       throw argument_error(("the normal of face " + std::to_string(normals.size())).c_str(), normal.transpose(),
                            "finite");
-    normals.push_back(normal.stableNormalized());
+    normals.push_back(unit_vector(normal));
   }
   return normals;
 }
