@@ -122,8 +122,8 @@ Surface_measures measures(const Mesh& mesh, const LabelOfFace& label) {
     const double doubled_area = (b - a).cross(c - a).norm();
     areas.push_back(doubled_area / 2);
     volumes.push_back(a.dot(b.cross(c)) / 6);
-    result.least_height =
-        std::min(result.least_height, doubled_area / std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}));
+    const double longest_side = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    result.least_height = std::min(result.least_height, longest_side > 0 ? doubled_area / longest_side : 0);
   }
   for (std::vector<double>* values : {&areas, &volumes})
     std::sort(values->begin(), values->end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
