@@ -1,0 +1,39 @@
+// Bytes as a file of each format: read into a sound soup, or refused with one line that names the file.
+
+#include "../../examples/mesh_files.h"
+
+#include "Fuzzed_input.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    const auto read = [&]() -> mesh_files::Polygon_soup {
+      switch (data[0] % 4) {
+        case 0:
+          return mesh_files::read_off("file", content);
+        case 1:
+          return mesh_files::read_ply("file", content);
+        case 2:
+          return mesh_files::read_obj("file", content);
+        default:
+          return mesh_files::read_stl("file", content);
+      }
+    };
+    const mesh_files::Polygon_soup soup = read();
+    for (const auto corner : soup.corners) fuzz::require(corner < soup.points.size(), "corners are points");
+    for (const auto& p : soup.points)
+      fuzz::require(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()), "points are finite");
+    fuzz::require(soup.first_corner.back() == soup.corners.size(), "faces are made of all corners");
+  } catch (const mesh_files::Unreadable_file& error) {
+    const std::string what = error.what();
+    fuzz::require(what.compare(0, 4, "file") == 0, "the error names the file");
+    fuzz::require(what.find('\n') == std::string::npos, "the error is one line");
+  }
+  return 0;
+}
