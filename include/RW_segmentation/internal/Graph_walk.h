@@ -498,8 +498,8 @@ bool Graph_walk<Solver>::add_column(Index s) {
     for (std::size_t f = 0; f < h.size(); ++f) h[f] -= share * column.potential[f];
   }
   const double resistance = h[s];  // between s and the seeds
+  if (!(resistance > 0 && error < accepted_error * resistance)) return false;
   error /= resistance;
-  if (!(resistance > 0 && error < accepted_error)) return false;
   for (double& value : h) value = std::clamp(value / resistance, 0., 1.);
 
   const auto n = static_cast<Eigen::Index>(columns_.size());
