@@ -1,0 +1,199 @@
+// Whether segment_mesh bears any mesh with any defect in any of its modes.
+
+#include "../examples/mesh_files.h"
+#include "../test/defects.h"
+#include "measurement.h"
+
+#include <CLI/CLI.hpp>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace measurement;
+
+namespace {
+
+/// What the tool is asked to do.
+const std::vector<std::pair<std::string, std::vector<std::string>>> modes = {{"seeds", {"--seed", "0", "--seed", "1"}},
+                                                                             {"automatic", {}},
+                                                                             {"five", {"--segments", "5"}},
+                                                                             {"coarse", {"--coarse"}},
+                                                                             {"machine", {"--engineering"}},
+                                                                             {"refined", {"--smooth", "--refine"}}};
+
+struct Arguments {
+  std::string tool;
+  std::vector<std::string> meshes = {
+      "bear",     "blobby",          "bones",     "bull",     "camel",   "cow",       "cross_quad",
+      "cube",     "cube_quad",       "eight",     "elephant", "fandisk", "hand",      "joint",
+      "mushroom", "oblong-shuffled", "open_cube", "pipe",     "rotor",   "torus_quad"};
+  std::vector<std::string> defects;
+  unsigned seconds = 120, megabytes = 4000;
+};
+
+defects::Soup read_soup(const std::string& path) {
+  const mesh_files::Polygon_soup file = mesh_files::read_mesh(path);
+  defects::Soup soup;
+  for (const auto& p : file.points) soup.points.emplace_back(p.x(), p.y(), p.z());
+  for (std::size_t f = 0; f < file.number_of_faces(); ++f)
+    soup.faces.emplace_back(file.face(f).begin(), file.face(f).end());
+  return soup;
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder that the tool is run in.
+class Workplace {
+ public:
+  explicit Workplace(const Arguments& arguments)
+      : arguments_(arguments),
+        folder_(std::filesystem::temp_directory_path() / ("defects_" + std::to_string(std::random_device()()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Workplace() { std::filesystem::remove_all(folder_); }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  void write(const std::string& content) const { std::ofstream(folder_ / "mesh.off", std::ios::binary) << content; }
+
+  /// Runs the tool on the mesh. What is wrong with what it does; "" if it is right, "refused" if it tells why not.
+  std::string fault(const std::vector<std::string>& mode) const {
+    const auto [code, errors] = run(mode);
+    if (code < 0) return "ended by signal " + std::to_string(-code);
+    std::string fault = "refused";
+    if (code == 0)
+      fault = fault_of_outputs();
+    else if (code > 5)
+      fault = "exit code " + std::to_string(code);
+    else if (!names_the_file(errors))
+      fault = "says " + errors;
+    else if (std::distance(std::filesystem::directory_iterator(folder_), {}) != 1)
+      fault = "leaves files although it refuses";
+    for (const char* output : {"out.ply", "out.seg"}) std::filesystem::remove(folder_ / output);
+    return fault;
+  }
+
+ private:
+  /// The exit code, or minus the signal that ended the tool, and its errors.
+  std::pair<int, std::string> run(const std::vector<std::string>& mode) const {
+    const std::string errors = folder_.string() + ".err";
+    std::fflush(stdout);
+    const pid_t process = fork();
+    if (process == 0) {
+      const rlimit time = {arguments_.seconds, arguments_.seconds},
+                   memory = {rlim_t(arguments_.megabytes) << 20, rlim_t(arguments_.megabytes) << 20};
+      setrlimit(RLIMIT_CPU, &time);
+      setrlimit(RLIMIT_AS, &memory);
+      if (chdir(folder_.c_str()) != 0 || !std::freopen("/dev/null", "w", stdout) ||
+          !std::freopen(errors.c_str(), "w", stderr))
+        _exit(99);
+      std::vector<std::string> words = {"segment_mesh", "mesh.off", "--output", "out.ply", "--labels", "out.seg"};
+      words.insert(words.end(), mode.begin(), mode.end());
+      std::vector<char*> pointers;
+      for (std::string& word : words) pointers.push_back(word.data());
+      pointers.push_back(nullptr);
+      execv(arguments_.tool.c_str(), pointers.data());
+      _exit(99);
+    }
+    int status = 0;
+    waitpid(process, &status, 0);
+    const std::string said = content_of(errors);
+    std::filesystem::remove(errors);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), said};
+  }
+
+  /// Whether there is a line, and each says which file it is about: what was repaired, and what is wrong.
+  static bool names_the_file(const std::string& errors) {
+    std::istringstream lines(errors);
+    std::string line;
+    bool is_any = false;
+    while (std::getline(lines, line)) {
+      if (line.rfind("segment_mesh: mesh.off", 0) != 0) return false;
+      is_any = true;
+    }
+    return is_any;
+  }
+
+  std::string fault_of_outputs() const {
+    const std::size_t faces = mesh_files::read_mesh((folder_ / "out.ply").string()).number_of_faces();
+    std::istringstream lines(content_of(folder_ / "out.seg"));
+    const std::vector<std::size_t> labels{std::istream_iterator<std::size_t>(lines), {}};
+    if (!lines.eof()) return "labels are no numbers";
+    if (labels.size() != faces) return "there is not a label for each face";
+    for (const std::size_t label : labels)
+      if (label >= faces) return "a label is out of range";
+    return "";
+  }
+
+  const Arguments& arguments_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Arguments arguments;
+  CLI::App app(
+      "Runs the tool segment_mesh on meshes with defects, in all its modes. Right is an answer for every face, or a "
+      "refusal that names the file and its cause and leaves no file behind. A crash, too much time or memory, or "
+      "anything "
+      "else is wrong.");
+  app.add_option("TOOL", arguments.tool, "The path of segment_mesh")->required()->check(CLI::ExistingFile);
+  app.add_option("--meshes", arguments.meshes, "Data meshes of CGAL")->delimiter(',')->capture_default_str();
+  app.add_option("--defects", arguments.defects, "By their names; all by default")->delimiter(',');
+  app.add_option("--seconds", arguments.seconds, "Of a run at most")->capture_default_str();
+  app.add_option("--megabytes", arguments.megabytes, "Of a run at most")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  arguments.tool = std::filesystem::absolute(arguments.tool).string();
+
+  const Workplace workplace(arguments);
+  std::map<std::string, std::size_t> totals;
+  std::printf("%-30s %8s %8s %8s\n", "defect", "correct", "refused", "wrong");
+  for (const defects::Defect& defect : defects::all()) {
+    if (!arguments.defects.empty() &&
+        std::find(arguments.defects.begin(), arguments.defects.end(), defect.name) == arguments.defects.end())
+      continue;
+    std::map<std::string, std::size_t> counts;
+    for (const std::string& mesh : arguments.meshes) {
+      workplace.write(defects::damaged_off(read_soup(data_mesh(mesh + ".off")), defect));
+      for (const auto& [mode, options] : modes) {
+        const std::string fault = workplace.fault(options);
+        const std::string outcome = fault.empty() ? "correct" : fault == "refused" ? fault : "wrong";
+        ++counts[outcome];
+        ++totals[outcome];
+        if (outcome == "wrong")
+          std::printf("WRONG: %s, %s, %s: %s\n", mesh.c_str(), defect.name.c_str(), mode.c_str(), fault.c_str());
+      }
+    }
+    std::printf("%-30s %8zu %8zu %8zu\n", defect.name.c_str(), counts["correct"], counts["refused"], counts["wrong"]);
+    std::fflush(stdout);
+  }
+  std::vector<Result> results(1, Result("defects"));
+  results[0].add("meshes", arguments.meshes.size()).add("modes", modes.size());
+  for (const char* outcome : {"correct", "refused", "wrong"}) results[0].add(outcome, totals[outcome]);
+  print(results);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "benchmark_defects: " << error.what() << '\n';
+  return 1;
+}
