@@ -121,6 +121,7 @@ class Refinement_step {
         visitor_(visitor) {}
 
   Split_report operator()() {
+    reserve_memory();
     relabel_whole_faces();
     for (const Index h : refinement_.whole_edges()) put(constrained_, edge(descriptor(h), mesh_), true);
 
@@ -142,6 +143,16 @@ class Refinement_step {
 
  private:
   halfedge_descriptor descriptor(Index h) const { return descriptor_of_halfedge(h, mesh_, graph_); }
+
+  /// So that, where meshes can reserve, none is left in the middle of an operation.
+  void reserve_memory() {
+    const std::size_t vertices = refinement_.edge_cuts().size();
+    std::size_t faces = 0;
+    for (const auto& cut : refinement_.cut_faces()) faces += cut.corners.size() - 3;
+    using Size = typename Traits::vertices_size_type;
+    reserve(mesh_, static_cast<Size>(num_vertices(mesh_) + vertices),
+            static_cast<Size>(num_edges(mesh_) + vertices + faces), static_cast<Size>(num_faces(mesh_) + faces));
+  }
 
   void relabel_whole_faces() {
     std::vector<char> is_cut(surface_.number_of_faces(), false);
@@ -238,7 +249,8 @@ class Refinement_step {
 /// \endcode
 ///
 /// Everything is worked out before the mesh is touched: if the curves cannot be cut in, the mesh and the maps are what
-/// they were. Only the memory running out or a visitor that throws may leave a mesh cut in part; it is a valid one.
+/// they were. Only the memory running out or a visitor that throws may leave a mesh cut in part; it is a valid one where
+/// the mesh can reserve memory, as `Surface_mesh` can.
 ///
 /// Complexity: O(m) for m faces, and O(n^3) for each face that n - 3 new vertices lie on, few as a rule.
 ///

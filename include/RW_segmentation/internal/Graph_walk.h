@@ -107,14 +107,16 @@ class Graph_walk {
   void add_seed(Index face, Label label) {
     if (label == std::numeric_limits<Label>::max())
       throw std::invalid_argument("label " + std::to_string(label) + " is too large");
-    const auto [known, fresh] = label_of_.emplace(face, label);
-    if (fresh) {
-      seeds_.push_back({face, label});
-    } else {
-      doubtful_labels_.push_back(std::exchange(known->second, label));
-      find(face)->label = label;
-    }
+    // Whatever needs memory comes first. A label that is doubted for nothing does no harm.
     doubtful_labels_.push_back(label);
+    if (const auto known = label_of_.find(face); known != label_of_.end()) {
+      doubtful_labels_.push_back(known->second);
+      known->second = find(face)->label = label;
+    } else {
+      if (seeds_.size() == seeds_.capacity()) seeds_.reserve(2 * seeds_.size() + 1);
+      label_of_.emplace(face, label);
+      seeds_.push_back({face, label});
+    }
     solved_ = false;
   }
 
@@ -245,6 +247,7 @@ class Graph_walk {
 
   void solve();
   void factorise();
+  bool label_by_columns();
   bool update_columns();
   void fill_columns();
   std::vector<double> base_values(std::vector<double> current) const;
@@ -316,14 +319,14 @@ void Graph_walk<Solver>::solve() {
   if (seeds_.empty()) throw std::invalid_argument("no seeds");
   if (solved_) return;
   known_potentials_.clear();
+  const bool comparable = std::exchange(comparable_, false);  // first: what follows may fail half-way
   const std::vector<Index> rank_before = std::move(rank_);
   const std::vector<Label> labels_before = labels_;
-  const bool comparable = std::exchange(comparable_, false);
   collect_labels();
   rank_.assign(graph_->number_of_faces(), 0);
   largest_.assign(graph_->number_of_faces(), 1.);
   // A single label needs no solve; what is known of earlier seeds stays for later ones.
-  if (number_of_labels_ > 1 && !(update_columns() && label_from_columns())) label_directly();
+  if (number_of_labels_ > 1 && !label_by_columns()) label_directly();
   label_unseeded_components();
   const std::vector<char> connected =
       comparable ? labels_as_before(rank_before, labels_before) : std::vector<char>(labels_.size(), 0);
@@ -331,6 +334,17 @@ void Graph_walk<Solver>::solve() {
   settle_islands(connected);
   comparable_ = solved_ = true;
   progress_(1);
+}
+
+/// Answers edits. False where that is impossible, inaccurate or not worth it.
+template <class Solver>
+bool Graph_walk<Solver>::label_by_columns() {
+  try {
+    return update_columns() && label_from_columns();
+  } catch (...) {  // some columns may know of an edit that others do not
+    has_columns_ = false;
+    throw;
+  }
 }
 
 /// Which labels have the same faces and the same seeds as before, when all their faces were joined to the seeds.

@@ -1,0 +1,191 @@
+// What happens when memory runs out, the user cancels, or a map of the user's throws, at any moment.
+
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Curvature_difference.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smooth_boundaries.h>
+#include <RW_segmentation/split_along_boundaries.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "boundaries.h"
+#include "face_labels.h"
+#include "meshes.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+constexpr long never = std::numeric_limits<long>::max();
+std::atomic<long> allocations_left = never;
+
+void* allocate(std::size_t size) {
+  if (allocations_left != never && --allocations_left < 0) throw std::bad_alloc();
+  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace RW_segmentation;
+using meshes::Surface_mesh;
+
+namespace {
+
+using Callback = std::function<bool(double)>;
+
+/// Makes the k-th allocation of `work` fail for each k until none does. Calls `check` after each failure.
+void for_every_allocation(const std::function<void()>& work, const std::function<void()>& check) {
+  long failures = 0;
+  for (bool is_done = false; !is_done; ++failures) {
+    ASSERT_LT(failures, 1000000);
+    allocations_left = failures;
+    try {
+      work();
+      is_done = true;
+      allocations_left = never;
+    } catch (const std::bad_alloc&) {
+      allocations_left = never;
+      check();
+    }
+  }
+  EXPECT_GT(failures, 10);
+}
+
+/// Cancels `work(callback)` at its k-th call for each k until there is none. Calls `check` after each.
+void for_every_call(const std::function<void(const Callback&)>& work, const std::function<void()>& check) {
+  std::size_t cancelled = 0;
+  for (bool is_done = false; !is_done; ++cancelled) {
+    std::size_t calls = 0;
+    try {
+      work([&](double) { return calls++ != cancelled; });
+      is_done = true;
+    } catch (const Cancelled&) {
+      EXPECT_EQ(calls, cancelled + 1) << "called after it had cancelled";
+      check();
+    }
+  }
+  EXPECT_GT(cancelled, 3u);
+}
+
+meshes::Shape two_spheres() { return meshes::two_spheres_with_neck(3, 0.3, 8); }
+
+struct Faults : testing::Test {
+  const Surface_mesh mesh = meshes::surface_mesh(two_spheres());
+  Face_labels<Surface_mesh> labels{mesh};
+  const std::vector<Surface_mesh::Face_index> seeds = {labels.face(0), labels.face(mesh.number_of_faces() - 1)};
+
+  void expect_untouched() const {
+    for (const std::size_t label : labels.values()) ASSERT_EQ(label, labels.untouched);
+  }
+};
+
+}  // namespace
+
+TEST_F(Faults, SegmentationThatRunsOutOfMemoryWritesNothing) {
+  for_every_allocation([&] { segmentation_via_random_walks(mesh, labels.map()); }, [&] { expect_untouched(); });
+}
+
+TEST_F(Faults, EngineeringSegmentationThatRunsOutOfMemoryWritesNothing) {
+  const Surface_mesh cube = meshes::surface_mesh(meshes::cube(2));
+  Face_labels<Surface_mesh> sides(cube);
+  for_every_allocation([&] { segmentation_via_random_walks(cube, sides.map(), Engineering_segmentation()); },
+                       [&] { ASSERT_EQ(sides.values()[0], sides.untouched); });
+}
+
+TEST_F(Faults, WalkThatRunsOutOfMemoryGoesOnLater) {
+  const Conductance conductance(mesh, Dihedral_difference(mesh));
+  Face_labels<Surface_mesh> expected(mesh), later(mesh);
+  Random_walk whole(mesh, conductance);
+  const auto edit = [&](auto& walk, const auto& map) {
+    walk.add_seed(seeds[0], 0);
+    walk.add_seed(seeds[1], 1);
+    walk.segment(map);
+    walk.add_seed(labels.face(40), 2);
+    walk.segment(map);
+    walk.remove_seed(labels.face(40));
+    walk.segment(map);
+  };
+  edit(whole, expected.map());
+  for (long failing = 0;; ++failing) {
+    Random_walk walk(mesh, conductance);
+    allocations_left = failing;
+    try {
+      edit(walk, labels.map());
+      allocations_left = never;
+      break;
+    } catch (const std::bad_alloc&) {
+      allocations_left = never;
+    }
+    edit(walk, later.map());
+    ASSERT_EQ(later.values(), expected.values()) << "after the failure of allocation " << failing;
+  }
+}
+
+TEST_F(Faults, BoundariesThatRunOutOfMemoryLeaveAValidMesh) {
+  const auto cells = boundaries::random_cells(two_spheres(), 4);
+  Surface_mesh cut;
+
+  for_every_allocation(
+      [&] {
+        const long left = allocations_left;
+        allocations_left = never;  // for the copy that is worked on
+        cut = mesh;
+        boundaries::Face_labels<Surface_mesh> copied(cut, cells);
+        allocations_left = left;
+        const auto curves = smooth_boundaries(cut, copied.map());
+        split_along_boundaries(cut, curves, copied.map());
+      },
+      [&] { ASSERT_TRUE(cut.is_valid(false)); });
+}
+
+TEST_F(Faults, CancellingAtAnyCallWritesNothing) {
+  const auto with = [](const Callback& callback) { return CGAL::parameters::callback(callback); };
+  const auto check = [&] { expect_untouched(); };
+  const std::vector<Surface_mesh::Face_index> none;
+  for_every_call(
+      [&](const Callback& callback) {
+        segmentation_via_random_walks(mesh, labels.map(), Automatic_segmentation(), none, with(callback));
+      },
+      check);
+}
+
+TEST_F(Faults, CancellingBoundariesAtAnyCallIsHeard) {
+  const boundaries::Face_labels<Surface_mesh> segments(mesh, boundaries::random_cells(two_spheres(), 4));
+  auto copy = segments;
+  for_every_call(
+      [&](const Callback& callback) {
+        smooth_boundaries(mesh, copy.map(), Boundary_smoothing(), CGAL::parameters::callback(callback));
+      },
+      [] {});
+}
+
+TEST_F(Faults, ExceptionOfAMapPassesThroughAndNothingIsWritten) {
+  for (std::size_t reads = 0; reads < mesh.number_of_edges(); reads += 7) {
+    std::size_t left = reads;
+    const auto throwing = boost::make_function_property_map<Surface_mesh::Edge_index, double>([&](auto) {
+      if (left-- == 0) throw std::domain_error("of the map");
+      return 1.;
+    });
+    EXPECT_THROW(segmentation_from_seeds(mesh, throwing, seeds, labels.map()), std::domain_error);
+    expect_untouched();
+  }
+}
