@@ -425,16 +425,23 @@ TEST_F(File_test, WhatIsWrittenIsReadBackExactly) {
     Polygon_soup part = soup;
     part.first_corner.resize(faces + 1);
     part.corners.resize(part.first_corner.back());
-    const std::vector<mesh_files::Color> colors(faces, {1, 2, 255});
-    mesh_files::Output_file off(path("out.off")), ply(path("out.ply"));
-    mesh_files::write_off(off, part, colors);
-    mesh_files::write_ply(ply, part, colors, std::vector<std::size_t>(faces, 7));
-    off.commit();
-    ply.commit();
-    for (const char* name : {"out.off", "out.ply"}) {
-      const Polygon_soup again = mesh_files::read_mesh(path(name));
-      EXPECT_EQ(again.points, soup.points) << name;
-      EXPECT_EQ(faces_of(again), faces_of(part)) << name;
+    const std::vector<mesh_files::Color> face_colors(faces, {1, 2, 255});
+    for (const bool has_point_colors : {false, true}) {
+      const mesh_files::Colors colors =
+          has_point_colors ? mesh_files::colors_of_points(part, face_colors) : mesh_files::colors_of_faces(face_colors);
+      const std::vector<std::size_t> labels(faces, 7);
+      mesh_files::Output_file off(path("out.off")), ply(path("out.ply")), obj(path("out.obj"));
+      mesh_files::write_off(off, part, colors);
+      mesh_files::write_ply(ply, part, colors, labels);
+      mesh_files::write_obj(obj, "out.mtl", part, colors, labels);
+      off.commit();
+      ply.commit();
+      obj.commit();
+      for (const char* name : {"out.off", "out.ply", "out.obj"}) {
+        const Polygon_soup again = mesh_files::read_mesh(path(name));
+        EXPECT_EQ(again.points, soup.points) << name;
+        EXPECT_EQ(faces_of(again), faces_of(part)) << name;
+      }
     }
   }
 }
@@ -442,7 +449,8 @@ TEST_F(File_test, WhatIsWrittenIsReadBackExactly) {
 TEST_F(File_test, CgalReadsTheColorsAndLabelsOfAPlyFile) {
   const Polygon_soup soup = soup_of(tetrahedron_points, tetrahedron_faces);
   mesh_files::Output_file ply(path("out.ply"));
-  mesh_files::write_ply(ply, soup, {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 255}}, {3, 1, 4, 1000000});
+  mesh_files::write_ply(ply, soup, mesh_files::colors_of_faces({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 255}}),
+                        {3, 1, 4, 1000000});
   ply.commit();
   Mesh mesh;
   std::ifstream file(path("out.ply"), std::ios::binary);
@@ -455,6 +463,23 @@ TEST_F(File_test, CgalReadsTheColorsAndLabelsOfAPlyFile) {
   EXPECT_EQ(color[Mesh::Face_index(0)], CGAL::IO::Color(1, 2, 3));
   EXPECT_EQ(color[Mesh::Face_index(3)], CGAL::IO::Color(10, 11, 255));
   EXPECT_EQ(label[Mesh::Face_index(3)], 1000000U);
+}
+
+TEST_F(File_test, PointsBetweenSegmentsAreWrittenOnceForEach) {
+  // Two squares side by side and one above the first: three segments, and a point that no face has.
+  const Polygon_soup soup =
+      soup_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {9, 9, 9}},
+              {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}});
+  const std::vector<std::size_t> labels = {5, 7, 5};
+  const Polygon_soup apart = mesh_files::with_points_apart(soup, labels);
+  EXPECT_EQ(apart.points.size(), 11U);  // the two points of the edge between 5 and 7 twice
+  ASSERT_EQ(apart.first_corner, soup.first_corner);
+  for (std::size_t i = 0; i < soup.corners.size(); ++i)
+    EXPECT_EQ(apart.points[apart.corners[i]], soup.points[soup.corners[i]]);
+  const std::vector<mesh_files::Color> colors = {{1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+  const mesh_files::Colors of_points = mesh_files::colors_of_points(apart, colors);
+  for (std::size_t f = 0; f < 3; ++f)
+    for (const auto corner : apart.face(f)) EXPECT_EQ(of_points.of_points[corner], colors[f]);
 }
 
 TEST_F(File_test, AnOutputAppearsWholeOrNotAtAll) {
@@ -733,7 +758,7 @@ TEST(Seeds_test, SeedsWithoutALabelGetTheLowestUnused) {
 }
 
 TEST(Segment_colors_test, NeighboursNeverHaveTheSameColor) {
-  const Mesh mesh = wavy_grid(40);
+  const Mesh mesh = wavy_grid(80);
   std::mt19937 random(3);
   for (const std::size_t segments : {1U, 2U, 8U, 9U, 40U, 700U}) {
     // Scattered segments: with 40 of them all are neighbours of all.
@@ -748,16 +773,41 @@ TEST(Segment_colors_test, NeighboursNeverHaveTheSameColor) {
   }
 }
 
-TEST(Segment_colors_test, NeighboursDifferInHueWhereEightHuesWillDo) {
+/// A colour in CIELAB as those see it who lack the cones for green (Vienot, Brettel and Mollon 1999), or as all others.
+std::array<double, 3> cielab(const mesh_files::Color& color, bool lacks_green) {
+  std::array<double, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i) c[i] = std::pow(color[i] / 255., 2.2);
+  if (lacks_green)
+    c = {0.29275 * c[0] + 0.70725 * c[1], 0.29275 * c[0] + 0.70725 * c[1], -0.02234 * c[0] + 0.02234 * c[1] + c[2]};
+  const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16. / 116; };
+  const double x = f((0.4124 * c[0] + 0.3576 * c[1] + 0.1805 * c[2]) / 0.9505);
+  const double y = f(0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]);
+  const double z = f((0.0193 * c[0] + 0.1192 * c[1] + 0.9505 * c[2]) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+TEST(Segment_colors_test, NeighboursLookDifferentWithAndWithoutConesForGreen) {
   const Mesh mesh = wavy_grid(60);
-  std::vector<std::size_t> segment;
-  for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) segment.push_back(f / 60 / 5 * 12 + f % 60 / 5);
-  const auto colors = segment_mesh::segment_colors(mesh, segment, 144);
-  std::map<mesh_files::Color, std::size_t> hue_of;
-  for (std::size_t hue = 0; hue < 8; ++hue)
-    for (std::size_t shade = 0; shade < 7; ++shade) hue_of[segment_mesh::color(hue, shade)] = hue;
-  for (const auto& [a, b] : segment_mesh::neighbouring_segments(mesh, segment))
-    EXPECT_NE(hue_of.at(colors[a]), hue_of.at(colors[b])) << a << " and " << b;
+  std::mt19937 random(5);
+  double smallest = 1000;
+  for (int round = 0; round < 10; ++round) {
+    // Blocks, of which random ones are joined to the left or to the one below.
+    std::vector<std::size_t> parent(144), number(144, 144), segment;
+    for (std::size_t i = 0; i < 144; ++i)
+      parent[i] = random() % 3 == 0 && i % 12 > 0 ? parent[i - 1] : random() % 3 == 0 && i > 11 ? parent[i - 12] : i;
+    std::size_t segments = 0;
+    for (const std::size_t p : parent)
+      if (number[p] == 144) number[p] = segments++;
+    for (std::size_t f = 0; f < mesh.number_of_faces(); ++f)
+      segment.push_back(number[parent[f / 60 / 5 * 12 + f % 60 / 5]]);
+    const auto colors = segment_mesh::segment_colors(mesh, segment, segments);
+    for (const auto& [a, b] : segment_mesh::neighbouring_segments(mesh, segment))
+      for (const bool lacks_green : {false, true}) {
+        const auto p = cielab(colors[a], lacks_green), q = cielab(colors[b], lacks_green);
+        smallest = std::min(smallest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      }
+  }
+  EXPECT_GT(smallest, 10);  // 2 can just be seen
 }
 
 }  // namespace

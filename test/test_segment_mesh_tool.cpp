@@ -66,7 +66,7 @@ class Segment_mesh_tool : public testing::Test {
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(folder_))
-      result[entry.path().filename().string()] = content_of(entry.path().string());
+      if (entry.is_regular_file()) result[entry.path().filename().string()] = content_of(entry.path().string());
     return result;
   }
 
@@ -539,6 +539,179 @@ TEST_F(Segment_mesh_tool, AMeshOfOneFaceIsOneSegment) {
   EXPECT_EQ(labels("one.seg"), (std::vector<std::size_t>{4}));
 }
 
+// ---- Other kinds of output ----
+
+TEST_F(Segment_mesh_tool, AnObjFileHasAGroupAndAMaterialForEachSegment) {
+  write("cube.off", cube_of_separate_squares(3));
+  ASSERT_EQ(run(std::vector<std::string>{"cube.off", "-o", "out.obj", "--report", "r.json"} + six_sides).exit_code, 0);
+  std::map<std::string, std::size_t> faces_of_group;
+  std::istringstream obj(content_of(path("out.obj")));
+  std::string line, group, material;
+  EXPECT_TRUE(std::getline(obj, line) && line == "mtllib out.mtl");
+  while (std::getline(obj, line)) {
+    if (line.compare(0, 2, "g ") == 0) group = line.substr(2);
+    if (line.compare(0, 7, "usemtl ") == 0) material = line.substr(7);
+    if (line.compare(0, 2, "f ") != 0) continue;
+    EXPECT_EQ(group, material);
+    ++faces_of_group[group];
+  }
+  const std::string materials = content_of(path("out.mtl"));
+  for (const auto& segment : nlohmann::json::parse(content_of(path("r.json")))["segments"]) {
+    const std::string name = "segment_" + std::to_string(segment["label"].get<int>());
+    EXPECT_EQ(faces_of_group[name], 9U) << name;
+    std::istringstream entry(materials.substr(std::min(materials.size(), materials.find("newmtl " + name + "\nKd "))));
+    std::string word;
+    entry >> word >> word >> word;
+    for (const double channel : segment["color"]) {
+      double written = -1;
+      entry >> written;
+      EXPECT_NEAR(255 * written, channel, 1e-3) << name;
+    }
+  }
+  EXPECT_EQ(faces_of_group.size(), 6U);
+  EXPECT_EQ(run({"out.obj", "--quiet", "--segments", "6"}).exit_code, 0);
+}
+
+TEST_F(Segment_mesh_tool, PointColorsAreThoseOfTheFaces) {
+  const int n = 4;
+  write("grid.off", grid(n));
+  const std::vector<std::string> seeds = {"grid.off", "--seed", "0", "--seed", "15", "--output"};
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"faces.off"}).exit_code, 0);
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"points.off", "--point-colors"}).exit_code, 0);
+  std::istringstream by_face(content_of(path("faces.off"))), by_point(content_of(path("points.off")));
+  std::string header, rest;
+  std::size_t points = 0, points_apart = 0, faces = 0, faces_apart = 0, edges = 0;
+  by_face >> header >> points >> faces >> edges;
+  by_point >> header >> points_apart >> faces_apart >> edges;
+  EXPECT_EQ(header, "COFF");
+  EXPECT_EQ(faces_apart, faces);
+  EXPECT_GT(points_apart, points);  // those between the two segments
+  std::vector<std::array<int, 3>> color_of_point(points_apart);
+  for (std::size_t v = 0; v < points; ++v) std::getline(by_face >> std::ws, rest);
+  double x = 0, y = 0, z = 0;
+  int alpha = 0;
+  for (auto& [red, green, blue] : color_of_point) ASSERT_TRUE(by_point >> x >> y >> z >> red >> green >> blue >> alpha);
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t degree = 0, corner = 0;
+    std::array<int, 3> color{};
+    by_face >> degree;
+    for (std::size_t i = 0; i < degree; ++i) by_face >> corner;
+    ASSERT_TRUE(by_face >> color[0] >> color[1] >> color[2]);
+    by_point >> degree;
+    for (std::size_t i = 0; i < degree; ++i) {
+      ASSERT_TRUE(by_point >> corner);
+      EXPECT_EQ(color_of_point.at(corner), color);
+    }
+  }
+}
+
+// ---- Several meshes ----
+
+TEST_F(Segment_mesh_tool, SeveralMeshesGetWhatEachGetsAlone) {
+  write("a.off", tower(2));
+  write("b.off", tower(3));
+  std::filesystem::create_directory(path("out"));
+  const Result result = run({"a.off", "b.off", "--labels", "out/%.seg", "--output", "out/%.ply", "--split", "parts_%",
+                             "--report", "all.jsonl"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(number_of_lines(result.output), 2U) << result.output;
+  std::istringstream report(content_of(path("all.jsonl")));
+  for (const std::string name : {"a", "b"}) {
+    ASSERT_EQ(run({name + ".off", "--labels", "alone.seg", "--output", "alone.ply"}).exit_code, 0);
+    EXPECT_EQ(content_of(path("alone.seg")), content_of(path("out/" + name + ".seg")));
+    EXPECT_EQ(content_of(path("alone.ply")), content_of(path("out/" + name + ".ply")));
+    EXPECT_TRUE(std::filesystem::exists(path("parts_" + name + "/segment_0.ply")));
+    std::string line;
+    ASSERT_TRUE(std::getline(report, line));
+    EXPECT_EQ(nlohmann::json::parse(line)["mesh"], name + ".off");
+  }
+
+  write("list.txt", "a.off\n\nb.off\r\n");
+  ASSERT_EQ(run({"--list", "list.txt", "--labels", "%.seg", "--report", "%.json"}).exit_code, 0);
+  EXPECT_EQ(content_of(path("a.seg")), content_of(path("out/a.seg")));
+  EXPECT_EQ(content_of(path("b.seg")), content_of(path("out/b.seg")));
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("b.json")))["mesh"], "b.off");
+}
+
+TEST_F(Segment_mesh_tool, AMeshThatFailsDoesNotEndTheWork) {
+  write("bad.off", "OFF\n3 1 0\n0 0 0\n");
+  write("good.off", strip(3));
+  const Result result = run({"bad.off", "missing.off", "good.off", "--labels", "%.seg", "--report", "all.jsonl"});
+  EXPECT_EQ(result.exit_code, 6) << result.errors;
+  EXPECT_NE(result.errors.find("2 of 3 meshes failed"), std::string::npos) << result.errors;
+  EXPECT_EQ(labels("good.seg").size(), 6U);
+  EXPECT_FALSE(std::filesystem::exists(path("bad.seg")));
+  std::istringstream report(content_of(path("all.jsonl")));
+  std::string line;
+  for (const bool fails : {true, true, false}) {
+    ASSERT_TRUE(std::getline(report, line));
+    const auto entry = nlohmann::json::parse(line);
+    EXPECT_EQ(entry.contains("error"), fails) << line;
+    if (fails) {
+      EXPECT_EQ(entry["exit_code"], 2) << line;
+    }
+  }
+}
+
+TEST_F(Segment_mesh_tool, ResumingDoesOnlyWhatIsMissingOrOlderThanTheMesh) {
+  const std::vector<std::string> names = {"a", "b", "c", "d"};
+  for (const std::string& name : names) write(name + ".off", strip(3));
+  const std::vector<std::string> arguments = {"a.off",   "b.off",   "c.off",    "d.off",     "--labels", "%.seg",
+                                              "--split", "parts_%", "--report", "all.jsonl", "--resume"};
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), 4U);
+  const auto second = run(arguments);
+  EXPECT_EQ(second.exit_code, 0) << second.errors;
+  EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), 4U);
+
+  using namespace std::chrono_literals;
+  std::filesystem::remove(path("a.seg"));
+  std::filesystem::remove_all(path("parts_a"));
+  std::filesystem::remove_all(path("parts_b"));
+  std::filesystem::remove_all(path("parts_d"));
+  for (const char* file : {"d.seg", "parts_c/segment_0.ply"})
+    std::filesystem::last_write_time(path(file), std::filesystem::last_write_time(path("d.off")) + 1h);
+  std::filesystem::last_write_time(path("d.off"), std::filesystem::last_write_time(path("d.off")) + 2h);
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  std::istringstream report(content_of(path("all.jsonl")));
+  std::vector<std::string> done;
+  for (std::string line; std::getline(report, line);) done.push_back(nlohmann::json::parse(line)["mesh"]);
+  EXPECT_EQ(done, (std::vector<std::string>{"a.off", "b.off", "c.off", "d.off", "a.off", "b.off", "d.off"}));
+  for (const std::string& name : names) EXPECT_EQ(labels(name + ".seg").size(), 6U);
+}
+
+TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
+  write("a.off", strip(3));
+  write("b.off", strip(3));
+  std::filesystem::create_directory(path("more"));
+  write("more/a.off", strip(3));
+  expect_failure(1, "several meshes need a %", {"a.off", "b.off", "--labels", "l.seg"});
+  expect_failure(1, "a.seg is an input or another output", {"a.off", "more/a.off", "--labels", "%.seg"});
+  expect_failure(1, "./a.off is given twice", {"a.off", "b.off", "./a.off"});
+  expect_failure(1, "b.off is an input or another output", {"a.off", "b.off", "--output", "%.off"});
+  expect_failure(5, "no_such_folder/%.seg", {"a.off", "b.off", "--labels", "no_such_folder/%.seg"});
+  expect_failure(1, "--resume", {"a.off", "b.off", "--report", "all.jsonl", "--resume"});
+  expect_failure(2, "missing.txt", {"--list", "missing.txt"});
+}
+
+TEST_F(Segment_mesh_tool, CtrlCKeepsTheMeshesThatAreDone) {
+  write("first.off", strip(3));
+  write("second.off", grid(500));
+  const pid_t process = start({"first.off", "second.off", "--labels", "%.seg", "--report", "all.jsonl", "--seed", "0"});
+  const auto is_at_second = [&] {
+    for (const auto& [name, content] : files())
+      if (name.compare(0, 15, "second.seg.part") == 0) return true;
+    return false;
+  };
+  for (int i = 0; i < 60000 && !is_at_second(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(is_at_second());
+  kill(process, SIGINT);
+  EXPECT_EQ(wait(process).exit_code, 130);
+  EXPECT_EQ(labels("first.seg").size(), 6U);
+  EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), 1U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 4);
+}
+
 // ---- What it refuses ----
 
 TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
@@ -556,9 +729,9 @@ TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
   expect_failure(1, "--seed: '1=2': labels have no meaning", {"strip.off", "--segments", "2", "--seed", "1=2"});
   expect_failure(1, "--probabilities", {"strip.off", "--probabilities", "p.txt"});
   expect_failure(1, "--hierarchy", {"strip.off", "--seed", "1", "--hierarchy", "h.json"});
-  expect_failure(1, "out.stl is neither .ply nor .off", {"strip.off", "--seed", "0", "-o", "out.stl"});
-  expect_failure(1, "strip.off is the input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
-  expect_failure(1, "a.off is the input or another output",
+  expect_failure(1, "out.stl is neither .ply nor .off nor .obj", {"strip.off", "--seed", "0", "-o", "out.stl"});
+  expect_failure(1, "strip.off is an input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
+  expect_failure(1, "a.off is an input or another output",
                  {"strip.off", "--seed", "0", "-o", "a.off", "--labels", "a.off"});
 }
 
@@ -626,6 +799,22 @@ TEST_F(Segment_mesh_tool, HelpAndVersionGoToStandardOutput) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.output.find("Exit codes"), std::string::npos);
   EXPECT_EQ(help.errors, "");
+  const Result page = run({"--man"});
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.errors, "");
+  // Every option of the help stands in the manual page, and every exit code in both.
+  std::istringstream words(help.output);
+  std::size_t options = 0;
+  for (std::string word; words >> word;) {
+    if (word.compare(0, 2, "--") != 0) continue;
+    std::string name = word.substr(2, word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", 2) - 2);
+    for (std::size_t at = 0; (at = name.find('-', at)) != std::string::npos; at += 2) name.insert(at, "\\");
+    EXPECT_NE(page.output.find("\\-\\-" + name), std::string::npos) << word;
+    ++options;
+  }
+  EXPECT_GT(options, 25U);
+  for (const char* code : {"0  success", "6  one or more", "130  cancelled"})
+    for (const std::string* text : {&help.output, &page.output}) EXPECT_NE(text->find(code), std::string::npos) << code;
   const Result version = run({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_EQ(version.output.find("segment_mesh "), 0U);

@@ -4,16 +4,18 @@
 #include "../mesh_files.h"
 #include "Boundaries.h"
 #include "Closest_face.h"
-#include "Options.h"
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
-#include "segment_colors.h"
+#include "Task.h"
+#include "report.h"
+#include "segments.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,8 +23,6 @@
 #include <vector>
 
 namespace segment_mesh {
-
-using Json = nlohmann::ordered_json;
 
 /// For each face of the file the face of the mesh that speaks for it: its own, or the closest one where a repair left
 /// it out.
@@ -49,118 +49,6 @@ std::vector<Value> in_file_order(const std::vector<Mesh::Face_index>& faces, con
   return result;
 }
 
-/// A segment as it is listed and reported.
-struct Segment {
-  std::size_t label = 0;
-  std::size_t faces = 0;
-  double area = 0;  ///< as a part of the whole
-  mesh_files::Color color{};
-};
-
-/// The area of a face in squares of `unit`.
-inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
-  const auto first = mesh.halfedge(f);
-  const Point& apex = mesh.point(mesh.source(first));
-  Mesh_vector twice_the_area = CGAL::NULL_VECTOR;
-  for (const auto h : mesh.halfedges_around_face(first))
-    twice_the_area = twice_the_area + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
-                                                          (mesh.point(mesh.target(h)) - apex) / unit);
-  return CGAL::approximate_sqrt(twice_the_area.squared_length()) / 2;
-}
-
-/// Counts, areas and colours of the segments, in the order of their labels.
-inline std::vector<Segment> segments_of(const Mesh& mesh, const std::vector<std::size_t>& label) {
-  std::vector<std::size_t> labels = label;
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  std::vector<Segment> segments(labels.size());
-  std::vector<std::size_t> id(label.size());
-
-  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
-  const double extent = std::max({box.x_span(), box.y_span(), box.z_span()});
-  double total_area = 0;
-  for (const auto f : mesh.faces()) {
-    id[f] = static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label[f]) - labels.begin());
-    const double area = extent > 0 ? face_area(mesh, f, extent) : 0;
-    ++segments[id[f]].faces;
-    segments[id[f]].area += area;
-    total_area += area;
-  }
-  const auto colors = segment_colors(mesh, id, labels.size());
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    segments[s].label = labels[s];
-    segments[s].color = colors[s];
-    if (total_area > 0) segments[s].area /= total_area;
-  }
-  return segments;
-}
-
-/// The type of a surface and the numbers that it has, in the coordinates of the mesh; angles are in degrees.
-inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
-  using RW_segmentation::Surface_type;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  const auto vector = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
-  switch (surface.type) {
-    case Surface_type::plane:
-      return {{"type", "plane"},
-              {"point", vector(surface.point)},
-              {"normal", vector(surface.direction)},
-              {"residual", surface.residual}};
-    case Surface_type::sphere:
-      return {{"type", "sphere"},
-              {"centre", vector(surface.point)},
-              {"radius", surface.radius},
-              {"residual", surface.residual}};
-    case Surface_type::cylinder:
-      return {{"type", "cylinder"},
-              {"point", vector(surface.point)},
-              {"axis", vector(surface.direction)},
-              {"radius", surface.radius},
-              {"residual", surface.residual}};
-    case Surface_type::cone:
-      return {{"type", "cone"},
-              {"apex", vector(surface.point)},
-              {"axis", vector(surface.direction)},
-              {"half_angle", surface.half_angle / degree},
-              {"residual", surface.residual}};
-    case Surface_type::torus:
-      return {{"type", "torus"},          {"centre", vector(surface.point)},    {"axis", vector(surface.direction)},
-              {"radius", surface.radius}, {"tube_radius", surface.tube_radius}, {"residual", surface.residual}};
-    case Surface_type::free_form:
-      break;
-  }
-  return {{"type", "free form"}};
-}
-
-template <class Policy>
-Json report_of(const Options& options, const mesh_files::Polygon_soup& soup, const std::vector<std::string>& remarks,
-               const Policy& policy, const Segmentation& result, const std::vector<Segment>& segments,
-               const Json& milliseconds) {
-  Json report = {{"mesh", options.mesh},
-                 {"vertices", soup.points.size()},
-                 {"faces", soup.number_of_faces()},
-                 {"repairs", remarks},
-                 {"degenerate_faces", result.degenerate_faces},
-                 {"unseeded_components", result.unseeded_components},
-                 {"island_faces", result.island_faces},
-                 {"heavy_noise", result.has_heavy_noise},
-                 {"seeds", result.seeds},
-                 {"parameters",
-                  {{"smoothing", policy.smoothing.radius},
-                   {"convex_weight", policy.convex_weight},
-                   {"measure", policy.measure == RW_segmentation::Dihedral_measure::angle ? "angle" : "cosine"},
-                   {"sigma", policy.sigma},
-                   {"cap", policy.cap}}},
-                 {"segments", Json::array()},
-                 {"milliseconds", milliseconds},
-                 {"version", version()}};
-  for (const Segment& s : segments)
-    report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
-  for (std::size_t s = 0; s < result.surfaces.size(); ++s)
-    report["segments"][s]["surface"] = surface_of(result.surfaces[s]);
-  return report;
-}
-
 /// Merge i makes region `fragments` + i of two regions; the first regions are the fragments.
 inline Json hierarchy_of(const std::vector<Mesh::Face_index>& faces, const Segmentation& result) {
   Json merges = Json::array();
@@ -175,58 +63,80 @@ inline Json hierarchy_of(const std::vector<Mesh::Face_index>& faces, const Segme
 /// together at its end.
 class Output_files {
  public:
-  explicit Output_files(const Options& options) : options_(options) {
-    for (const std::string& path : options.outputs) create(path);
-    for (const std::string& path :
-         {options.labels, options.probabilities, options.hierarchy, options.boundaries, options.report})
-      if (!path.empty()) create(path);
-    if (!options.split.empty()) split_.emplace(options.split);
+  Output_files(const Files& files, bool has_point_colors) : files_(files), has_point_colors_(has_point_colors) {
+    for (const auto& [option, path] : written_files(files)) create(path);
+    if (!files.split.empty()) split_.emplace(files.split);
   }
 
   void write(const mesh_files::Polygon_soup& soup, const std::vector<Mesh::Face_index>& faces,
              const Segmentation& result, const std::vector<Segment>& segments) {
-    std::map<std::size_t, mesh_files::Color> color_of;
-    for (const Segment& s : segments) color_of[s.label] = s.color;
     const std::vector<std::size_t> labels = in_file_order(faces, result.label);
-    std::vector<mesh_files::Color> colors;
-    colors.reserve(labels.size());
-    for (const std::size_t label : labels) colors.push_back(color_of[label]);
-
-    for (const std::string& path : options_.outputs) {
-      if (mesh_files::extension_of(path) == ".ply")
-        mesh_files::write_ply(file(path), soup, colors, labels);
-      else
-        mesh_files::write_off(file(path), soup, colors);
-    }
-    if (!options_.labels.empty()) mesh_files::write_labels(file(options_.labels), labels);
-    if (!options_.probabilities.empty()) {
-      std::vector<std::string> names;
-      for (const std::size_t label : result.seed_labels) names.push_back(std::to_string(label));
-      std::vector<std::vector<double>> columns;
-      for (const auto& probability : result.probabilities) columns.push_back(in_file_order(faces, probability));
-      mesh_files::write_columns(file(options_.probabilities), names, columns);
-    }
-    if (!options_.hierarchy.empty()) file(options_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
+    if (!files_.outputs.empty()) write_meshes(soup, labels, segments);
+    if (!files_.labels.empty()) mesh_files::write_labels(file(files_.labels), labels);
+    if (!files_.probabilities.empty()) write_probabilities(faces, result);
+    if (!files_.hierarchy.empty()) file(files_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
     if (split_) write_parts(soup, labels, segments);
   }
 
   void write_boundaries(const Boundary_curves& curves) {
-    if (!options_.boundaries.empty()) write_curves(file(options_.boundaries), curves);
+    if (!files_.boundaries.empty()) write_curves(file(files_.boundaries), curves);
   }
 
   /// Gives the files their names.
   void commit(const Json& report) {
-    if (!options_.report.empty()) file(options_.report).write(report.dump() + "\n");
-    for (mesh_files::Output_file& file : files_) file.flush();
-    for (mesh_files::Output_file& file : files_) file.commit();
+    if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
+    for (mesh_files::Output_file& file : open_) file.flush();
+    for (mesh_files::Output_file& file : open_) file.commit();
     if (split_) split_->keep();
   }
 
  private:
-  mesh_files::Output_file& create(const std::string& path) { return files_.emplace_back(path); }
+  mesh_files::Output_file& create(const std::string& path) { return open_.emplace_back(path); }
 
   mesh_files::Output_file& file(const std::string& path) {
-    return *std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.path() == path; });
+    return *std::find_if(open_.begin(), open_.end(), [&](const auto& file) { return file.path() == path; });
+  }
+
+  /// The colours of faces as the files are to have them.
+  mesh_files::Colors colors_of(const mesh_files::Polygon_soup& soup,
+                               const std::vector<mesh_files::Color>& face_colors) const {
+    return has_point_colors_ ? mesh_files::colors_of_points(soup, face_colors)
+                             : mesh_files::colors_of_faces(face_colors);
+  }
+
+  void write_meshes(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
+                    const std::vector<Segment>& segments) {
+    std::map<std::size_t, mesh_files::Color> color_of_label;
+    for (const Segment& s : segments) color_of_label[s.label] = s.color;
+    std::vector<mesh_files::Color> face_colors;
+    face_colors.reserve(labels.size());
+    for (const std::size_t label : labels) face_colors.push_back(color_of_label[label]);
+
+    const mesh_files::Polygon_soup apart =
+        has_point_colors_ ? mesh_files::with_points_apart(soup, labels) : mesh_files::Polygon_soup();
+    const mesh_files::Polygon_soup& written = has_point_colors_ ? apart : soup;
+    const mesh_files::Colors colors = colors_of(written, face_colors);
+    for (const std::string& path : files_.outputs) {
+      const std::string extension = mesh_files::extension_of(path);
+      if (extension == ".ply") {
+        mesh_files::write_ply(file(path), written, colors, labels);
+      } else if (extension == ".off") {
+        mesh_files::write_off(file(path), written, colors);
+      } else {
+        const std::string materials = material_library_of(path);
+        mesh_files::write_obj(file(path), std::filesystem::path(materials).filename().string(), written, colors,
+                              labels);
+        mesh_files::write_materials(file(materials), color_of_label);
+      }
+    }
+  }
+
+  void write_probabilities(const std::vector<Mesh::Face_index>& faces, const Segmentation& result) {
+    std::vector<std::string> names;
+    for (const std::size_t label : result.seed_labels) names.push_back(std::to_string(label));
+    std::vector<std::vector<double>> columns;
+    for (const auto& probability : result.probabilities) columns.push_back(in_file_order(faces, probability));
+    mesh_files::write_columns(file(files_.probabilities), names, columns);
   }
 
   void write_parts(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
@@ -235,15 +145,17 @@ class Output_files {
     for (std::size_t f = 0; f < labels.size(); ++f) faces_of[labels[f]].push_back(f);
     for (const Segment& segment : segments) {
       const std::vector<std::size_t>& faces = faces_of[segment.label];
-      mesh_files::write_ply(create(options_.split + "/segment_" + std::to_string(segment.label) + ".ply"),
-                            mesh_files::part_of(soup, faces), std::vector(faces.size(), segment.color),
+      const mesh_files::Polygon_soup part = mesh_files::part_of(soup, faces);
+      mesh_files::write_ply(create(files_.split + "/segment_" + std::to_string(segment.label) + ".ply"), part,
+                            colors_of(part, std::vector(faces.size(), segment.color)),
                             std::vector(faces.size(), segment.label));
     }
   }
 
-  const Options& options_;
+  const Files& files_;
+  bool has_point_colors_;
   std::optional<mesh_files::Output_folder> split_;  // outlives the files in it
-  std::deque<mesh_files::Output_file> files_;
+  std::deque<mesh_files::Output_file> open_;
 };
 
 }  // namespace segment_mesh

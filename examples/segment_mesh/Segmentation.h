@@ -144,7 +144,7 @@ Segmentation segment_from_seeds(const Mesh& mesh, std::vector<Face_label> seeds,
   result.label.resize(mesh.num_faces());
   walk.segment(face_map(mesh, result.label));
   result.seed_labels.assign(labels.begin(), labels.end());
-  if (!options.probabilities.empty())
+  if (!options.files.probabilities.empty())
     for (const std::size_t label : result.seed_labels) {
       result.probabilities.emplace_back(mesh.num_faces());
       walk.write_probabilities(label, face_map(mesh, result.probabilities.back()));

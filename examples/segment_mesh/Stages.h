@@ -12,6 +12,7 @@
 #include <csignal>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace segment_mesh {
@@ -19,15 +20,16 @@ namespace segment_mesh {
 /// The stages of the work: a progress bar that Ctrl-C stops, and a clock for each.
 class Stages {
  public:
+  /// \param title stands before the names of stages beside the bar
   /// \param is_interrupted is looked at now and then; once true, it ends the work
-  Stages(bool is_bar_wanted, const volatile std::sig_atomic_t& is_interrupted)
-      : bar_(is_bar_wanted), is_interrupted_(is_interrupted) {}
+  Stages(bool is_bar_wanted, std::string title, const volatile std::sig_atomic_t& is_interrupted)
+      : bar_(is_bar_wanted), title_(std::move(title)), is_interrupted_(is_interrupted) {}
 
   /// Ends the stage before and begins one. The result is the `callback` of a computation.
   std::function<bool(double)> start(const std::string& name) {
     end();
     if (is_interrupted_) throw RW_segmentation::Cancelled();
-    bar_.start(name);
+    bar_.start(title_ + name);
     name_ = name;
     begin_ = Clock::now();
     return [this](double fraction) {
@@ -54,6 +56,7 @@ class Stages {
  private:
   using Clock = std::chrono::steady_clock;
   Progress_bar bar_;
+  std::string title_;
   const volatile std::sig_atomic_t& is_interrupted_;
   std::string name_;
   Clock::time_point begin_;

@@ -1,20 +1,24 @@
 #ifndef SEGMENT_MESH_SEGMENT_COLORS_H
 #define SEGMENT_MESH_SEGMENT_COLORS_H
 
+#include "../mesh_files/Colors.h"
 #include "Oriented_mesh.h"
+#include "color_vision.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace segment_mesh {
 
-/// A sequence of distinct colours: eight hues that people with a colour-vision deficiency can tell apart (Okabe and Ito
-/// 2008, grey in the place of black), then lighter and darker shades of them.
+/// A sequence of distinct colours: eight hues that suit people with a colour-vision deficiency (Okabe and Ito 2008, grey
+/// in the place of black), then lighter and darker shades of them.
 inline mesh_files::Color color(std::size_t hue, std::size_t shade) {
   constexpr std::array<std::array<double, 3>, 8> hues = {{{0, 114, 178},      // blue
                                                           {230, 159, 0},      // orange
@@ -48,42 +52,66 @@ inline std::vector<std::pair<std::size_t, std::size_t>> neighbouring_segments(co
   return pairs;
 }
 
-/// A colour for each segment, such that neighbours never look alike: they differ in hue as long as eight hues will do,
-/// and in shade beyond. Segments far apart differ, too, as long as there are distinct colours.
+/// The colours to choose from, and how far apart they look.
+class Palette {
+ public:
+  static constexpr std::size_t size = std::size_t(8) * 7;  // more shades are too close to white or black
+
+  Palette() {
+    for (std::size_t i = 0; i < size; ++i) colors_[i] = color(i % 8, i / 8);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        distances_[i][j] = distances_[j][i] = apparent_distance(colors_[i], colors_[j]);
+  }
+
+  const mesh_files::Color& operator[](std::size_t i) const { return colors_[i]; }
+  double distance(std::size_t i, std::size_t j) const { return distances_[i][j]; }
+
+ private:
+  std::array<mesh_files::Color, size> colors_{};
+  std::array<std::array<double, size>, size> distances_{};
+};
+
+/// Where neighbouring segments are given colours at least so far apart, see `apparent_distance()`.
+constexpr double distinct_colors = 0.1;
+
+/// A colour for each segment, such that neighbours never look alike, also to people with a colour-vision deficiency.
+/// Of the colours that are far enough from those of the neighbours the least used one is taken, so that segments far
+/// apart differ, too, as long as there are distinct colours. A segment with so many neighbours that none is far enough
+/// gets the one that is farthest.
 ///
 /// \param segment the segments of the faces, numbered from 0 without gaps
 inline std::vector<mesh_files::Color> segment_colors(const Mesh& mesh, const std::vector<std::size_t>& segment,
                                                      std::size_t number_of_segments) {
-  constexpr std::size_t hues = 8;
-  constexpr std::size_t shades = 7;                    // more of them are too close to white or black
-  using Choice = std::pair<std::size_t, std::size_t>;  // shade, hue
-  const auto pairs = neighbouring_segments(mesh, segment);
+  const Palette palette;
+  std::vector<std::vector<std::size_t>> neighbours(number_of_segments);
+  for (const auto& [a, b] : neighbouring_segments(mesh, segment)) neighbours[a].push_back(b);
+  std::vector<std::size_t> order(number_of_segments);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  // Those with the most neighbours choose first (Welsh and Powell 1967).
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return neighbours[a].size() > neighbours[b].size(); });
 
-  std::vector<Choice> choice(number_of_segments);
-  std::array<std::array<std::size_t, hues>, shades> uses{};
-  auto pair = pairs.begin();
-  for (std::size_t s = 0; s < number_of_segments; ++s) {
-    std::array<std::array<bool, hues>, shades> is_taken{};
-    std::array<bool, hues> is_hue_taken{};
-    for (; pair != pairs.end() && pair->first == s; ++pair) {
-      if (pair->second > s) continue;  // has no colour yet
-      const auto [shade, hue] = choice[pair->second];
-      is_taken[shade][hue] = true;
-      is_hue_taken[hue] = true;
-    }
-    const bool needs_shades = std::all_of(is_hue_taken.begin(), is_hue_taken.end(), [](bool taken) { return taken; });
-    std::pair<std::size_t, Choice> best = {std::size_t(-1), {0, 0}};
-    for (std::size_t shade = 0; shade < shades; ++shade)
-      for (std::size_t hue = 0; hue < hues; ++hue)
-        if (needs_shades ? !is_taken[shade][hue] : !is_hue_taken[hue])
-          best = std::min(best, {uses[shade][hue], Choice(shade, hue)});
-    choice[s] = best.second;
-    ++uses[choice[s].first][choice[s].second];
+  constexpr std::size_t none = Palette::size;
+  std::vector<std::size_t> choice(number_of_segments, none);
+  std::array<std::size_t, Palette::size> uses{};
+  for (const std::size_t s : order) {
+    const auto distance_to_neighbours = [&](std::size_t candidate) {
+      double smallest = distinct_colors;
+      for (const std::size_t neighbour : neighbours[s])
+        if (choice[neighbour] != none) smallest = std::min(smallest, palette.distance(candidate, choice[neighbour]));
+      return smallest;
+    };
+    std::tuple<double, std::size_t, std::size_t> best(1, 0, 0);  // distance as a loss, uses, colour
+    for (std::size_t candidate = 0; candidate < Palette::size; ++candidate)
+      best = std::min(best, std::tuple(-distance_to_neighbours(candidate), uses[candidate], candidate));
+    choice[s] = std::get<2>(best);
+    ++uses[choice[s]];
   }
 
   std::vector<mesh_files::Color> colors;
   colors.reserve(number_of_segments);
-  for (const auto& [shade, hue] : choice) colors.push_back(color(hue, shade));
+  for (const std::size_t c : choice) colors.push_back(palette[c]);
   return colors;
 }
 

@@ -1,0 +1,147 @@
+#ifndef SEGMENT_MESH_TASK_H
+#define SEGMENT_MESH_TASK_H
+
+#include "../mesh_files.h"
+#include "Options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace segment_mesh {
+
+/// A mesh and its files.
+struct Task {
+  std::string mesh;
+  Files files;
+};
+
+/// The file of materials beside an OBJ file.
+inline std::string material_library_of(const std::string& obj) {
+  return std::filesystem::path(obj).replace_extension(".mtl").string();
+}
+
+/// The files that are written for a mesh, each with its option. The folder of `--split` is none of them.
+inline std::vector<std::pair<const char*, std::string>> written_files(const Files& files) {
+  std::vector<std::pair<const char*, std::string>> written;
+  for (const std::string& path : files.outputs) {
+    written.emplace_back("--output", path);
+    if (mesh_files::extension_of(path) == ".obj") written.emplace_back("--output", material_library_of(path));
+  }
+  for (const auto& [option, path] : {std::pair("--labels", files.labels),
+                                     {"--probabilities", files.probabilities},
+                                     {"--hierarchy", files.hierarchy},
+                                     {"--boundaries", files.boundaries},
+                                     {"--report", files.report}})
+    if (!path.empty()) written.emplace_back(option, path);
+  return written;
+}
+
+/// The files of a mesh by their patterns, in which `%` stands for the name of the mesh without folder and extension.
+inline Files files_for(const std::string& mesh, Files patterns) {
+  const std::string name = std::filesystem::path(mesh).stem().string();
+  const auto replace = [&](std::string& path) {
+    for (std::size_t at = 0; (at = path.find('%', at)) != std::string::npos; at += name.size())
+      path.replace(at, 1, name);
+  };
+  for (std::string& path : patterns.outputs) replace(path);
+  for (std::string* path : {&patterns.seeds, &patterns.labels, &patterns.split, &patterns.probabilities,
+                            &patterns.hierarchy, &patterns.boundaries, &patterns.report})
+    replace(*path);
+  return patterns;
+}
+
+/// The lines of a file, or of standard input for "-"; blank ones are passed over.
+inline std::vector<std::string> lines_of(const std::string& path) {
+  std::istringstream file;
+  if (path != "-") file.str(mesh_files::read_content(path));
+  std::istream& lines = path == "-" ? std::cin : file;
+  std::vector<std::string> result;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.empty()) result.push_back(line);
+  }
+  return result;
+}
+
+/// Refuses paths of which one would overwrite a mesh or another output.
+inline void check_paths(const std::vector<Task>& tasks) {
+  std::set<std::string> taken;
+  const auto take = [&](const std::string& path) {
+    return taken.insert(std::filesystem::weakly_canonical(path).string()).second;
+  };
+  for (const Task& task : tasks)
+    if (!take(task.mesh)) throw CLI::ValidationError("MESH", task.mesh + " is given twice");
+  for (const Task& task : tasks) {
+    for (const auto& [option, path] : written_files(task.files))
+      if (!take(path)) throw CLI::ValidationError(option, path + " is an input or another output");
+    if (!task.files.split.empty() && !take(task.files.split))
+      throw CLI::ValidationError("--split", task.files.split + " is an input or another output");
+  }
+}
+
+/// Refuses outputs that several meshes would share, and folders that are not there.
+inline void check_patterns(const Files& patterns) {
+  auto written = written_files(patterns);
+  if (!patterns.split.empty()) written.emplace_back("--split", patterns.split);
+  for (const auto& [option, path] : written) {
+    if (path.find('%') == std::string::npos)
+      throw CLI::ValidationError(option, path + ": several meshes need a % in it, which stands for their names");
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (folder.string().find('%') == std::string::npos && !folder.empty() && !std::filesystem::is_directory(folder))
+      throw mesh_files::Unwritable_file(path + ": there is no such folder");
+  }
+}
+
+/// The meshes that are to be segmented, each with the names of its files.
+/// \throws CLI::ValidationError, mesh_files::Unreadable_file, mesh_files::Unwritable_file
+inline std::vector<Task> tasks_of(const Options& options) {
+  std::vector<std::string> meshes = options.meshes;
+  if (!options.list.empty())
+    for (const std::string& line : lines_of(options.list)) meshes.push_back(line);
+  if (meshes.empty() && options.list.empty()) throw CLI::RequiredError("a mesh");
+
+  Files patterns = options.files;
+  if (options.has_several_meshes()) {
+    if (patterns.report.find('%') == std::string::npos) patterns.report.clear();  // a journal of all meshes
+    check_patterns(patterns);
+  }
+  if (options.resumes && written_files(patterns).empty() && patterns.split.empty())
+    throw CLI::ValidationError("--resume", "no file tells which meshes are done: give an output for each mesh");
+  std::vector<Task> tasks;
+  tasks.reserve(meshes.size());
+  for (const std::string& mesh : meshes) tasks.push_back({mesh, files_for(mesh, patterns)});
+  check_paths(tasks);
+  return tasks;
+}
+
+/// Whether all files of a mesh are there and none is older than it.
+inline bool is_done(const Task& task) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_time_type time_of_mesh = fs::last_write_time(task.mesh, error);
+  if (error) return false;
+  const auto is_new = [&](const fs::path& path) {
+    const fs::file_time_type time = fs::last_write_time(path, error);
+    return !error && time >= time_of_mesh;
+  };
+  const auto written = written_files(task.files);
+  if (!std::all_of(written.begin(), written.end(), [&](const auto& file) { return is_new(file.second); })) return false;
+  if (task.files.split.empty()) return true;
+  const fs::directory_iterator parts(task.files.split, error);
+  // A part that has not got its name yet was left by a program that was killed.
+  return !error && parts != fs::directory_iterator() && std::all_of(begin(parts), end(parts), [&](const auto& part) {
+    return part.path().extension() == ".ply" && is_new(part.path());
+  });
+}
+
+}  // namespace segment_mesh
+
+#endif

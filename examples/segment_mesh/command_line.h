@@ -1,0 +1,149 @@
+#ifndef SEGMENT_MESH_COMMAND_LINE_H
+#define SEGMENT_MESH_COMMAND_LINE_H
+
+#include "Options.h"
+#include "help_sections.h"
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <string>
+
+namespace segment_mesh {
+
+/// Makes the command line that fills the options.
+inline void define_command_line(CLI::App& app, Options& options) {
+  app.description(summary);
+  app.set_version_flag("--version", "segment_mesh " + version());
+  app.add_flag("--man", options.is_man_page_wanted, "Print the manual page and exit: segment_mesh --man | man -l -");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("segment_mesh: ") + error.what() + " (see segment_mesh --help)\n";
+  });
+  std::string footer;
+  for (const auto& [title, text, is_preformatted] : help_sections) footer += std::string(title) + ":\n" + text + "\n";
+  app.footer(footer);
+
+  app.add_option("mesh", options.meshes, "The mesh, or several: OFF, PLY, OBJ or STL")->option_text("MESH ...");
+  app.add_option("--list", options.list, "A file with the path of one mesh a line; - is standard input")
+      ->option_text("FILE")
+      ->group("Several meshes");
+  app.add_flag("--resume", options.resumes, "Pass over meshes whose outputs are there already")
+      ->group("Several meshes");
+
+  auto* seed =
+      app.add_option("--seed", options.seeds,
+                     "A seed: the number of a face, or a point for the closest face. Repeatable. Seeds get the labels\n"
+                     "0, 1, ... in their order, or the one after \"=\"; several seeds may share a label.")
+          ->allow_extra_args(false)
+          ->option_text("FACE|X,Y,Z[=LABEL]")
+          ->group("Segments of your seeds");
+  auto* seeds_file =
+      app.add_option("--seeds-file", options.files.seeds, "A file with one seed a line; # starts a comment")
+          ->option_text("FILE")
+          ->group("Segments of your seeds");
+
+  app.add_option("--segments", options.segments, "How many segments; without it as many as the shape suggests")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N")
+      ->group("Automatic segments");
+  auto* automatic_seeds =
+      app.add_option("--seeds", options.automatic_seeds,
+                     "How many automatic seeds make the fragments that are merged (40; more for many --segments).\n"
+                     "Seeds of your own make further fragments.")
+          ->check(CLI::NonNegativeNumber)
+          ->option_text("N")
+          ->group("Automatic segments");
+  auto* coarse =
+      app.add_flag("--coarse", options.is_coarse, "A few seeds far apart, each a segment, instead of merged fragments")
+          ->excludes(seed)
+          ->excludes(seeds_file)
+          ->excludes(automatic_seeds)
+          ->group("Automatic segments");
+  auto* paper =
+      app.add_flag("--paper", options.is_paper, "The numbers of the paper instead of those that agree best with people")
+          ->group("Automatic segments");
+  app.add_flag("--engineering", options.is_engineering,
+               "For parts of machines: each segment is a plane, sphere, cylinder, cone or torus, or a free form;\n"
+               "--report tells which")
+      ->excludes(seed)
+      ->excludes(seeds_file)
+      ->excludes(automatic_seeds)
+      ->excludes(coarse)
+      ->excludes(paper)
+      ->group("Automatic segments");
+
+  app.add_option("--convex-weight", options.convex_weight,
+                 "How much convex creases count beside concave ones, 0 to 1: 0 for automatic segments and\n"
+                 "0.02 for seeds suit natural shapes; 1 with --smoothing 0 suits parts of machines")
+      ->option_text("NUMBER")
+      ->group("Difference of faces");
+  app.add_option("--measure", options.measure, "What is taken of the angle between faces: itself, or 1 - cosine")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, RW_segmentation::Dihedral_measure>{
+          {"angle", RW_segmentation::Dihedral_measure::angle},
+          {"cosine", RW_segmentation::Dihedral_measure::one_minus_cosine}}))
+      ->option_text("angle|cosine")
+      ->group("Difference of faces");
+  app.add_option("--smoothing", options.smoothing,
+                 "Smoothing length of the normals as a part of the square root of the area; 0 smooths nothing")
+      ->option_text("NUMBER")
+      ->group("Difference of faces");
+  app.add_option("--sigma", options.sigma, "The difference that stops a walk; 1 is an average edge")
+      ->option_text("NUMBER")
+      ->group("Walk");
+  app.add_option("--cap", options.cap, "The largest difference / sigma that counts, or inf")
+      ->option_text("NUMBER")
+      ->group("Walk");
+
+  app.add_flag("--smooth", options.is_smooth, "Smooth the boundaries between segments; they keep to creases")
+      ->group("Boundaries");
+  app.add_flag("--refine", options.is_refined,
+               "Cut the smooth boundaries into the mesh that is written; all faces must be triangles. The first faces\n"
+               "are those of the mesh, or what is left of them, and new ones follow.")
+      ->group("Boundaries");
+  app.add_option("--boundaries", options.files.boundaries, "The boundaries as polylines, an OBJ file")
+      ->option_text("FILE")
+      ->group("Boundaries");
+
+  app.add_flag_callback(
+         "--no-stitch", [&] { options.repairs.stitch = false; }, "Leave borders apart that coincide")
+      ->group("Repair");
+  app.add_flag_callback(
+         "--keep-orientation", [&] { options.repairs.orient = false; },
+         "Leave closed parts inside out (convex and concave change places)")
+      ->group("Repair");
+
+  app.add_option(
+         "-o,--output", options.files.outputs,
+         "The coloured mesh: .ply, .off, or .obj with a group and a material for each segment. Repeatable. A PLY file\n"
+         "also holds the labels (\"segment\"), an OBJ file gets a file .mtl beside it.")
+      ->allow_extra_args(false)
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_flag(
+         "--point-colors", options.has_point_colors,
+         "Colour points instead of faces, for viewers that do not show colours of faces. Points between segments\n"
+         "are written once for each segment.")
+      ->group("Output");
+  app.add_option("--labels", options.files.labels, "One label a line for each face")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_option("--split", options.files.split,
+                 "One mesh for each segment, in a new or empty folder: segment_LABEL.ply")
+      ->option_text("FOLDER")
+      ->group("Output");
+  app.add_option("--probabilities", options.files.probabilities,
+                 "One line for each face, one column for each label; the first line names the labels")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_option("--hierarchy", options.files.hierarchy, "All merges, as JSON: any number of segments can be read off")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_option("--report", options.files.report, "What was done, as one line of JSON for each mesh")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_flag("-q,--quiet", options.is_quiet, "Print nothing but errors")->group("Output");
+}
+
+}  // namespace segment_mesh
+
+#endif

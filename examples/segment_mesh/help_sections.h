@@ -1,0 +1,62 @@
+#ifndef SEGMENT_MESH_HELP_SECTIONS_H
+#define SEGMENT_MESH_HELP_SECTIONS_H
+
+#include <array>
+
+namespace segment_mesh {
+
+constexpr const char* summary =
+    "Cuts a surface mesh into segments by random walks: from seeds that you give, or all by itself.";
+
+/// A part of the help that is about no single option.
+struct Help_section {
+  const char* title;
+  const char* text;
+  bool is_preformatted;
+};
+
+constexpr std::array<Help_section, 5> help_sections = {{
+    {"Which way",
+     "Animals, people, furniture: no option at all. Parts of machines: --engineering. Too many or too few segments:\n"
+     "--segments. Parts that you have in mind: --seed, one or more for each. A seed is a face or the closest face to "
+     "a\n"
+     "point; faces are numbered from 0 in the order of the file.\n",
+     false},
+    {"Outputs",
+     "Every output keeps the order of the faces in the file, only OBJ has them segment by segment. Faces that a "
+     "repair\n"
+     "leaves out get the label of the closest face; with --refine, the mesh is written without them. Outputs are\n"
+     "written whole or not at all. Without an output, the segments are only listed.\n",
+     false},
+    {"Several meshes",
+     "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"
+     "(and of --seeds-file), % stands for the name of the mesh, without folder and extension. A --report without % "
+     "gets\n"
+     "one line for each mesh as soon as it is done, with \"error\" in it if it failed. With --resume, meshes are "
+     "passed\n"
+     "over whose outputs are all there and not older than the mesh; the report goes on after its last line. Whether\n"
+     "other options have changed is not looked at.\n",
+     false},
+    {"Exit codes",
+     "  0  success\n"
+     "  1  wrong usage\n"
+     "  2  unreadable input\n"
+     "  3  argument out of range\n"
+     "  4  failed computation\n"
+     "  5  output that cannot be written\n"
+     "  6  one or more of several meshes failed\n"
+     "130  cancelled by Ctrl-C or SIGTERM\n",
+     true},
+    {"Examples",
+     "  segment_mesh hand.off --output hand.ply\n"
+     "  segment_mesh hand.off --segments 6 --split fingers\n"
+     "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
+     "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
+     "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n"
+     "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n",
+     true},
+}};
+
+}  // namespace segment_mesh
+
+#endif

@@ -1,0 +1,89 @@
+#ifndef SEGMENT_MESH_REPORT_H
+#define SEGMENT_MESH_REPORT_H
+
+#include "../mesh_files/Polygon_soup.h"
+#include "Options.h"
+#include "Segmentation.h"
+#include "segments.h"
+
+#include <RW_segmentation/Analytic_surface.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace segment_mesh {
+
+using Json = nlohmann::ordered_json;
+
+/// The type of a surface and the numbers that it has, in the coordinates of the mesh; angles are in degrees.
+inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
+  using RW_segmentation::Surface_type;
+  constexpr double degree = 3.14159265358979323846 / 180;
+  const auto vector = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
+  switch (surface.type) {
+    case Surface_type::plane:
+      return {{"type", "plane"},
+              {"point", vector(surface.point)},
+              {"normal", vector(surface.direction)},
+              {"residual", surface.residual}};
+    case Surface_type::sphere:
+      return {{"type", "sphere"},
+              {"centre", vector(surface.point)},
+              {"radius", surface.radius},
+              {"residual", surface.residual}};
+    case Surface_type::cylinder:
+      return {{"type", "cylinder"},
+              {"point", vector(surface.point)},
+              {"axis", vector(surface.direction)},
+              {"radius", surface.radius},
+              {"residual", surface.residual}};
+    case Surface_type::cone:
+      return {{"type", "cone"},
+              {"apex", vector(surface.point)},
+              {"axis", vector(surface.direction)},
+              {"half_angle", surface.half_angle / degree},
+              {"residual", surface.residual}};
+    case Surface_type::torus:
+      return {{"type", "torus"},          {"centre", vector(surface.point)},    {"axis", vector(surface.direction)},
+              {"radius", surface.radius}, {"tube_radius", surface.tube_radius}, {"residual", surface.residual}};
+    case Surface_type::free_form:
+      break;
+  }
+  return {{"type", "free form"}};
+}
+
+template <class Policy>
+Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& soup, const std::vector<std::string>& remarks,
+               const Policy& policy, const Segmentation& result, const std::vector<Segment>& segments,
+               const Json& milliseconds) {
+  Json report = {{"mesh", mesh},
+                 {"vertices", soup.points.size()},
+                 {"faces", soup.number_of_faces()},
+                 {"repairs", remarks},
+                 {"degenerate_faces", result.degenerate_faces},
+                 {"unseeded_components", result.unseeded_components},
+                 {"island_faces", result.island_faces},
+                 {"heavy_noise", result.has_heavy_noise},
+                 {"seeds", result.seeds},
+                 {"parameters",
+                  {{"smoothing", policy.smoothing.radius},
+                   {"convex_weight", policy.convex_weight},
+                   {"measure", policy.measure == RW_segmentation::Dihedral_measure::angle ? "angle" : "cosine"},
+                   {"sigma", policy.sigma},
+                   {"cap", policy.cap}}},
+                 {"segments", Json::array()},
+                 {"milliseconds", milliseconds},
+                 {"version", version()}};
+  for (const Segment& s : segments)
+    report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
+  for (std::size_t s = 0; s < result.surfaces.size(); ++s)
+    report["segments"][s]["surface"] = surface_of(result.surfaces[s]);
+  return report;
+}
+
+}  // namespace segment_mesh
+
+#endif

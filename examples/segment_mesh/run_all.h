@@ -1,0 +1,84 @@
+#ifndef SEGMENT_MESH_RUN_ALL_H
+#define SEGMENT_MESH_RUN_ALL_H
+
+#include "Options.h"
+#include "Task.h"
+#include "report.h"
+#include "run.h"
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace segment_mesh {
+
+/// A file that gets one line for each mesh as soon as it is done, so that what is in it remains whatever happens next.
+class Journal {
+ public:
+  /// \param path none is written if it is empty
+  /// \param continues whether lines that are there stay
+  Journal(std::string path, bool continues) : path_(std::move(path)) {
+    if (path_.empty()) return;
+    file_.reset(std::fopen(path_.c_str(), continues ? "ab" : "wb"));
+    if (!file_) fail();
+  }
+
+  void write(const Json& report) {
+    if (!file_) return;
+    const std::string line = report.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) fail();
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  [[noreturn]] void fail() const { throw mesh_files::Unwritable_file(path_ + ": " + std::strerror(errno)); }
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// The report with a line for each of several meshes; none where each mesh has a report of its own.
+inline std::string path_of_journal(const Options& options) {
+  const std::string& path = options.files.report;
+  return path.find('%') == std::string::npos ? path : "";
+}
+
+/// Works through several meshes. One that fails does not end the work.
+inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options) {
+  Journal journal(path_of_journal(options), options.resumes);
+  std::size_t done = 0, failed = 0;
+  for (const Task& task : tasks) {
+    const std::string title = std::to_string(++done) + " of " + std::to_string(tasks.size()) + ": ";
+    if (options.resumes && is_done(task)) {
+      if (!options.is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
+      continue;
+    }
+    try {
+      const Json report = run(task, options, title);
+      journal.write(report);
+      if (!options.is_quiet)
+        std::printf("%s: %s\n", task.mesh.c_str(), counted(report["segments"].size(), "segment").c_str());
+    } catch (const std::exception&) {
+      const Outcome outcome = failure(task.mesh);
+      if (outcome.code == cancelled) throw;
+      say(outcome.message);
+      journal.write({{"mesh", task.mesh}, {"error", outcome.message}, {"exit_code", outcome.code}});
+      ++failed;
+    }
+    std::fflush(stdout);
+  }
+  if (failed == 0) return success;
+  say(std::to_string(failed) + " of " + counted(tasks.size(), "mesh", "meshes") + " failed");
+  return some_meshes_failed;
+}
+
+}  // namespace segment_mesh
+
+#endif

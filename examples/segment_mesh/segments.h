@@ -1,0 +1,63 @@
+#ifndef SEGMENT_MESH_SEGMENTS_H
+#define SEGMENT_MESH_SEGMENTS_H
+
+#include "../mesh_files/Colors.h"
+#include "Oriented_mesh.h"
+#include "Segmentation.h"
+#include "segment_colors.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace segment_mesh {
+
+/// A segment as it is listed and reported.
+struct Segment {
+  std::size_t label = 0;
+  std::size_t faces = 0;
+  double area = 0;  ///< as a part of the whole
+  mesh_files::Color color{};
+};
+
+/// The area of a face in squares of `unit`.
+inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
+  const auto first = mesh.halfedge(f);
+  const Point& apex = mesh.point(mesh.source(first));
+  Mesh_vector twice_the_area = CGAL::NULL_VECTOR;
+  for (const auto h : mesh.halfedges_around_face(first))
+    twice_the_area = twice_the_area + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
+                                                          (mesh.point(mesh.target(h)) - apex) / unit);
+  return CGAL::approximate_sqrt(twice_the_area.squared_length()) / 2;
+}
+
+/// Counts, areas and colours of the segments, in the order of their labels.
+inline std::vector<Segment> segments_of(const Mesh& mesh, const std::vector<std::size_t>& label) {
+  std::vector<std::size_t> labels = label;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  std::vector<Segment> segments(labels.size());
+  std::vector<std::size_t> id(label.size());
+
+  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
+  const double extent = std::max({box.x_span(), box.y_span(), box.z_span()});
+  double total_area = 0;
+  for (const auto f : mesh.faces()) {
+    id[f] = static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label[f]) - labels.begin());
+    const double area = extent > 0 ? face_area(mesh, f, extent) : 0;
+    ++segments[id[f]].faces;
+    segments[id[f]].area += area;
+    total_area += area;
+  }
+  const auto colors = segment_colors(mesh, id, labels.size());
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    segments[s].label = labels[s];
+    segments[s].color = colors[s];
+    if (total_area > 0) segments[s].area /= total_area;
+  }
+  return segments;
+}
+
+}  // namespace segment_mesh
+
+#endif
