@@ -1,6 +1,8 @@
-# Install rules, and a package configuration for find_package(RW_segmentation) that serves the install tree and
-# the build tree alike.
+# Install rules, a package configuration for find_package(RW_segmentation) that serves the install tree and the build
+# tree alike, and a file for pkg-config. The component `dev` is the library; the tool segment_mesh is the component `tool`,
+# see examples/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 
 # Headers only: the same place on every architecture.
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/RW_segmentation)
@@ -24,3 +26,13 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/RW_segmentationConfigVers
 install(FILES
   ${PROJECT_BINARY_DIR}/RW_segmentationConfig.cmake ${PROJECT_BINARY_DIR}/RW_segmentationConfigVersion.cmake
   DESTINATION ${package_dir})
+
+set(pkgconfig_dir ${CMAKE_INSTALL_DATADIR}/pkgconfig)
+file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/RW_segmentation.pc.in ${PROJECT_BINARY_DIR}/RW_segmentation.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/RW_segmentation.pc DESTINATION ${pkgconfig_dir})
+
+# A project of its own that builds against the installed library. Not among the documentation, which slim systems leave
+# out.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/RW_segmentation
+  PATTERN "tests*" EXCLUDE PATTERN "run_and_compare.cmake" EXCLUDE)

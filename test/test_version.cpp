@@ -13,5 +13,7 @@ TEST(Version, of_the_package_is_that_of_the_header) {
   EXPECT_EQ(version, PACKAGE_VERSION);
 }
 
+TEST(Version, of_the_package_is_that_of_the_vcpkg_port) { EXPECT_STREQ(PACKAGE_VERSION, VCPKG_VERSION); }
+
 // Headers of another CGAL on the include path would make a run with CGAL 6 a second run with CGAL 5.
 TEST(Version, of_CGAL_is_the_one_that_was_asked_for) { EXPECT_STREQ(CGAL_VERSION_STR, FOUND_CGAL_VERSION); }

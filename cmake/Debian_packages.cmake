@@ -1,0 +1,21 @@
+# Debian packages by cpack, one for each component that has something to install.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "The RW_segmentation authors")
+set(CPACK_PACKAGE_CONTACT "The RW_segmentation authors <maintainers@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME librw-segmentation-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcgal-dev (>= 5.5), libeigen3-dev (>= 3.4), libboost-dev (>= 1.72)")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Segmentation of surface meshes with random walks: headers and examples")
+
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME segment-mesh)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_TOOL_DESCRIPTION "Segmentation of surface meshes with random walks: the program segment_mesh")
+include(CPack)
