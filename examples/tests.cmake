@@ -80,6 +80,32 @@ example_test(segment_mesh.refine segment_mesh
   PRINTS "\n    7 +[0-9]+ +[0-9.]+ %\n"
   WRITES boundaries.obj segments.ply segments.seg)
 
+# CGAL's remeshing and approximation of segments.
+example_test(pipeline pipeline ARGUMENTS ${meshes}/bear.off 0.05 .
+  PRINTS "part 7: [0-9]+ faces, remeshed [1-9][0-9]+\n$"
+  WRITES part_0.off part_7.off)
+
+example_test(approximate_segments approximate_segments ARGUMENTS ${meshes}/cube-meshed.off 5 cube.off
+  PRINTS "^6 segments, 1728 faces, approximated by [0-9]+ triangles with 100 % of the area\n$"
+  WRITES cube.off)
+
+# Ten meshes, one of them broken at first, by recipes for collections and by the tool alone.
+function(collection_test name program)
+  if(NOT TARGET segment_mesh OR NOT data_dir)
+    return()
+  endif()
+  add_test(NAME example.collection.${name}
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_collection.sh ${program} $<TARGET_FILE:segment_mesh> ${meshes}
+      ${CMAKE_CURRENT_BINARY_DIR}/tests/collection.${name} ${ARGN})
+  set_tests_properties(example.collection.${name} PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+endfunction()
+set(collections ${CMAKE_CURRENT_SOURCE_DIR}/collections)
+collection_test(parallel parallel ${collections}/parallel.sh meshes outputs)
+collection_test(snakemake snakemake snakemake --snakefile ${collections}/Snakefile --cores 2 --keep-going
+  --config meshes=meshes outputs=outputs)
+collection_test(segment_mesh sh
+  sh -c "mkdir -p outputs && segment_mesh meshes/*.off --quiet --labels outputs/%.seg --resume")
+
 # The tool's own tests run the tool.
 if(TARGET test_segment_mesh_tool AND TARGET segment_mesh)
   add_dependencies(test_segment_mesh_tool segment_mesh)
