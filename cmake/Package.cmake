@@ -28,7 +28,8 @@ install(FILES
   DESTINATION ${package_dir})
 
 set(pkgconfig_dir ${CMAKE_INSTALL_DATADIR}/pkgconfig)
-file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
+file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix/)
+string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/RW_segmentation.pc.in ${PROJECT_BINARY_DIR}/RW_segmentation.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/RW_segmentation.pc DESTINATION ${pkgconfig_dir})
 

@@ -688,7 +688,8 @@ TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
   expect_failure(1, "several meshes need a %", {"a.off", "b.off", "--labels", "l.seg"});
   expect_failure(1, "a.seg is an input or another output", {"a.off", "more/a.off", "--labels", "%.seg"});
   expect_failure(1, "./a.off is given twice", {"a.off", "b.off", "./a.off"});
-  expect_failure(1, "b.off is an input or another output", {"a.off", "b.off", "--output", "%.off"});
+  expect_failure(1, "a.off is an input or another output", {"a.off", "b.off", "--output", "%.off"});
+  expect_failure(1, "b.off is an input or another output", {"a.off", "b.off", "--report", "b.off"});
   expect_failure(5, "no_such_folder/%.seg", {"a.off", "b.off", "--labels", "no_such_folder/%.seg"});
   expect_failure(1, "--resume", {"a.off", "b.off", "--report", "all.jsonl", "--resume"});
   expect_failure(2, "missing.txt", {"--list", "missing.txt"});

@@ -59,6 +59,10 @@ struct Options {
   bool merges() const { return !is_coarse && (!has_seeds() || segments || automatic_seeds); }
   /// Whether meshes are worked through one after the other, so that one that fails does not end the work.
   bool has_several_meshes() const { return meshes.size() > 1 || !list.empty(); }
+  /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own.
+  std::string journal() const {
+    return has_several_meshes() && files.report.find('%') == std::string::npos ? files.report : std::string();
+  }
 };
 
 /// Refuses options that do not go together.

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -72,13 +73,16 @@ inline std::vector<std::string> lines_of(const std::string& path) {
 }
 
 /// Refuses paths of which one would overwrite a mesh or another output.
-inline void check_paths(const std::vector<Task>& tasks) {
+/// \param journal the report of all meshes, if there is one
+inline void check_paths(const std::vector<Task>& tasks, const std::string& journal) {
   std::set<std::string> taken;
   const auto take = [&](const std::string& path) {
     return taken.insert(std::filesystem::weakly_canonical(path).string()).second;
   };
   for (const Task& task : tasks)
     if (!take(task.mesh)) throw CLI::ValidationError("MESH", task.mesh + " is given twice");
+  if (!journal.empty() && !take(journal))
+    throw CLI::ValidationError("--report", journal + " is an input or another output");
   for (const Task& task : tasks) {
     for (const auto& [option, path] : written_files(task.files))
       if (!take(path)) throw CLI::ValidationError(option, path + " is an input or another output");
@@ -110,7 +114,7 @@ inline std::vector<Task> tasks_of(const Options& options) {
 
   Files patterns = options.files;
   if (options.has_several_meshes()) {
-    if (patterns.report.find('%') == std::string::npos) patterns.report.clear();  // a journal of all meshes
+    if (!options.journal().empty()) patterns.report.clear();
     check_patterns(patterns);
   }
   if (options.resumes && written_files(patterns).empty() && patterns.split.empty())
@@ -118,7 +122,7 @@ inline std::vector<Task> tasks_of(const Options& options) {
   std::vector<Task> tasks;
   tasks.reserve(meshes.size());
   for (const std::string& mesh : meshes) tasks.push_back({mesh, files_for(mesh, patterns)});
-  check_paths(tasks);
+  check_paths(tasks, options.journal());
   return tasks;
 }
 

@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace segment_mesh {
@@ -44,15 +46,9 @@ class Journal {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// The report with a line for each of several meshes; none where each mesh has a report of its own.
-inline std::string path_of_journal(const Options& options) {
-  const std::string& path = options.files.report;
-  return path.find('%') == std::string::npos ? path : "";
-}
-
 /// Works through several meshes. One that fails does not end the work.
 inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options) {
-  Journal journal(path_of_journal(options), options.resumes);
+  Journal journal(options.journal(), options.resumes);
   std::size_t done = 0, failed = 0;
   for (const Task& task : tasks) {
     const std::string title = std::to_string(++done) + " of " + std::to_string(tasks.size()) + ": ";
