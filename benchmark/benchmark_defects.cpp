@@ -89,7 +89,8 @@ class Workplace {
       fault = "says " + errors;
     else if (std::distance(std::filesystem::directory_iterator(folder_), {}) != 1)
       fault = "leaves files although it refuses";
-    for (const char* output : {"out.ply", "out.seg"}) std::filesystem::remove(folder_ / output);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      if (entry.path().filename() != "mesh.off") std::filesystem::remove_all(entry.path());
     return fault;
   }
 

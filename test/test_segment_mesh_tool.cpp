@@ -745,6 +745,8 @@ TEST_F(Segment_mesh_tool, UnreadableInputIsCodeTwo) {
            {"garbage.stl", std::string(500, '\xaa'), "garbage.stl: the header promises"},
            {"lie.off", "OFF\n4000000000 4000000000 0\n", "lie.off:2: the header promises 4000000000 vertices"},
            {"nan.obj", "v 0 0 0\nv 1 nan 0\n", "nan.obj:2: the y coordinate is not finite"},
+           {"point.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n",
+            "point.off: no face has three different corners"},
            {"flat.off", "OFF\n3 1 0\n0 0\n1 0\n1 1\n3 0 1 2\n", "flat.off:3: the z coordinate is missing"}}) {
     write(name, content);
     expect_failure(2, message, {name, "--seed", "0", "--labels", "l.seg", "-o", "l.ply"});

@@ -110,6 +110,8 @@ Json segment_task(const Task& task, const Options& options, const Policy& number
   stages.start("repair");
   Oriented_mesh input = oriented_mesh(soup, options.repairs);
   stages.end();
+  if (input.mesh.number_of_faces() == 0 && soup.number_of_faces() > 0)
+    throw mesh_files::Unreadable_file(task.mesh + ": no face has three different corners");
   remark(input.remarks);
 
   const std::vector<Face_label> seeds = seed_faces(seed_texts, input);
