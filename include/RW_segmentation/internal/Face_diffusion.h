@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@ namespace RW_segmentation::internal {
 /// |e| / l for each edge, l = 2/3 (Ai + Aj) / |e| being the distance of the faces' centres.
 ///
 /// Solved by conjugate gradients for the three coordinates at once. The preconditioner is a multigrid cycle: a sweep of
-/// Gauss-Seidel forward and one backward over the faces, between them the same for aggregates of up to four faces, for
+/// Gauss-Seidel forward and one backward over the faces, between them the same for aggregates of about four faces, for
 /// aggregates of those, and so on until mass outweighs diffusion. The number of iterations hardly grows with the mesh.
 /// Only the correction to a start is computed, which is why single precision will do.
 class Face_diffusion {
@@ -142,42 +143,51 @@ class Face_diffusion {
     return false;
   }
 
-  /// Groups of up to four strongly linked nodes: `members[begin[a]]` .. `members[begin[a + 1] - 1]`.
+  /// Groups of strongly linked nodes: `members[begin[a]]` .. `members[begin[a + 1] - 1]`.
   struct Aggregates {
     std::vector<Index> members, begin;
   };
 
-  /// Grows each aggregate from the first node that has none.
+  /// Grows each aggregate from the first node that has none to four nodes at most. A node that finds none to grow by
+  /// joins the aggregate of its strongest neighbour, lest a node with many weak links keeps them all on every level.
   static Aggregates aggregate(Level& level) {
     constexpr std::size_t largest = 4;
     constexpr float strong = 0.25F;  // relative to the strongest link of the first node
     constexpr Index none = std::numeric_limits<Index>::max();
     level.aggregate.assign(level.size(), none);
-    Aggregates result;
-    result.members.reserve(level.size());
+    Index number = 0;
+    std::vector<Index> grown;
     for (std::size_t root = 0; root < level.size(); ++root) {
       if (level.aggregate[root] != none) continue;
-      const auto number = static_cast<Index>(result.begin.size());
-      const std::size_t begin = result.members.size();
-      const auto take = [&](std::size_t node) {
-        level.aggregate[node] = number;
-        result.members.push_back(static_cast<Index>(node));
-      };
-      result.begin.push_back(static_cast<Index>(begin));
-      take(root);
-      float strongest = 0;
+      grown.assign(1, static_cast<Index>(root));
+      level.aggregate[root] = number;
+      const Link* strongest = nullptr;
       for (std::size_t k = level.row[root]; k < level.row[root + 1]; ++k)
-        strongest = std::max(strongest, level.links[k].weight);
-      for (std::size_t m = begin; m < result.members.size(); ++m) {
-        const std::size_t node = result.members[m];
-        for (std::size_t k = level.row[node]; k < level.row[node + 1]; ++k) {
+        if (!strongest || level.links[k].weight > strongest->weight) strongest = &level.links[k];
+      for (std::size_t m = 0; m < grown.size(); ++m)
+        for (std::size_t k = level.row[grown[m]]; k < level.row[grown[m] + std::size_t(1)]; ++k) {
           const auto [to, weight] = level.links[k];
-          if (result.members.size() - begin < largest && level.aggregate[to] == none && weight > strong * strongest)
-            take(to);
+          if (grown.size() == largest || level.aggregate[to] != none || !(weight > strong * strongest->weight))
+            continue;
+          level.aggregate[to] = number;
+          grown.push_back(to);
         }
-      }
+      if (grown.size() == 1 && strongest)
+        level.aggregate[root] = level.aggregate[strongest->to];
+      else
+        ++number;
     }
-    result.begin.push_back(static_cast<Index>(level.size()));
+    return members_of(level.aggregate, number);
+  }
+
+  static Aggregates members_of(const std::vector<Index>& aggregate, std::size_t number) {
+    Aggregates result;
+    result.begin.assign(number + 1, 0);
+    result.members.resize(aggregate.size());
+    for (const Index a : aggregate) ++result.begin[a + std::size_t(1)];
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    std::vector<Index> next(result.begin.begin(), result.begin.end() - 1);
+    for (std::size_t i = 0; i < aggregate.size(); ++i) result.members[next[aggregate[i]]++] = static_cast<Index>(i);
     return result;
   }
 
