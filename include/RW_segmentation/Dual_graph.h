@@ -114,6 +114,24 @@ class Dual_graph {
 
 namespace internal {
 
+/// The faces in breadth-first order, from the first one of each component.
+inline std::vector<Dual_graph::Index> breadth_first_order(const Dual_graph& graph) {
+  std::vector<Dual_graph::Index> order;
+  std::vector<bool> reached(graph.number_of_faces(), false);
+  order.reserve(reached.size());
+  const auto reach = [&](std::size_t face) {
+    if (reached[face]) return;
+    reached[face] = true;
+    order.push_back(static_cast<Dual_graph::Index>(face));
+  };
+  for (std::size_t f = 0; f < reached.size(); ++f) {
+    std::size_t next = order.size();
+    for (reach(f); next < order.size(); ++next)
+      for (const auto& neighbour : graph.neighbours(order[next])) reach(neighbour.face);
+  }
+  return order;
+}
+
 /// The faces on both sides of a mesh edge, that of `halfedge(edge, mesh)` first; null where the mesh ends.
 template <class FaceListGraph>
 auto faces_beside(typename boost::graph_traits<FaceListGraph>::edge_descriptor edge, const FaceListGraph& mesh) {
@@ -127,7 +145,7 @@ auto faces_beside(typename boost::graph_traits<FaceListGraph>::edge_descriptor e
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`: `Surface_mesh`, `Polyhedron_3` with or without ids, OpenMesh,
 /// `Face_filtered_graph`, meshes with removed elements. Faces are numbered in the order of `faces(mesh)`, edges in the
-/// order of `edges(mesh)`, border edges left out. Ids that the mesh may hold are not used.
+/// order of `edges(mesh)`, border edges left out, until they are renumbered. Ids that the mesh may hold are not used.
 template <class FaceListGraph>
 class Mesh_dual_graph : public Dual_graph {
  public:
@@ -157,6 +175,42 @@ class Mesh_dual_graph : public Dual_graph {
       edges_.push_back(e);
     }
     static_cast<Dual_graph&>(*this) = Dual_graph(faces_.size(), std::move(ends));
+  }
+
+  /// Numbers faces and edges anew, so that neighbours have numbers that are close to each other whatever the order in
+  /// the mesh: faces breadth-first from the first one of each component, edges by the lower one of their faces. What
+  /// passes over a large graph then finds most of what it needs in the cache.
+  /// \returns the former number of each edge
+  /// Complexity: linear.
+  std::vector<Index> renumber_along_surface() {
+    const std::vector<Index> face_order = internal::breadth_first_order(*this);
+    std::vector<Index> number(face_order.size());
+    for (std::size_t i = 0; i < face_order.size(); ++i) number[face_order[i]] = static_cast<Index>(i);
+
+    std::vector<std::array<Index, 2>> ends;
+    std::vector<edge_descriptor> edges;
+    std::vector<Index> edge_order;
+    ends.reserve(edges_.size());
+    edges.reserve(edges_.size());
+    edge_order.reserve(edges_.size());
+    for (const Index f : face_order)
+      for (const auto& [g, e] : neighbours(f)) {
+        if (number[g] < number[f]) continue;
+        const auto [first, second] = faces_of(e);
+        ends.push_back({number[first], number[second]});
+        edges.push_back(edges_[e]);
+        edge_order.push_back(e);
+      }
+    std::vector<face_descriptor> faces;
+    faces.reserve(faces_.size());
+    for (const Index f : face_order) {
+      index_.insert(faces_[f], static_cast<Index>(faces.size()));
+      faces.push_back(faces_[f]);
+    }
+    faces_ = std::move(faces);
+    edges_ = std::move(edges);
+    static_cast<Dual_graph&>(*this) = Dual_graph(faces_.size(), std::move(ends));
+    return edge_order;
   }
 
   /// The face of the mesh that has a number.

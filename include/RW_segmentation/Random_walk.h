@@ -71,7 +71,7 @@ class Random_walk {
               const NamedParameters& np = CGAL::parameters::default_values())
       : mesh_(&mesh),
         graph_(std::make_unique<Mesh_dual_graph<FaceListGraph>>(mesh)),
-        walk_(*graph_, read_conductances(*graph_, conductance), std::move(solver), internal::progress_of(np)),
+        walk_(*graph_, renumber_and_read(*graph_, conductance), std::move(solver), internal::progress_of(np)),
         faces_at_start_(num_faces(mesh)),
         edges_at_start_(num_edges(mesh)) {}
 
@@ -146,13 +146,17 @@ class Random_walk {
   const Walk_report& report() const { return walk_.report(); }
 
  private:
+  /// Renumbers the graph for speed; the values are read, and faulty ones told of, in the order of the mesh.
   template <class ConductanceMap>
-  static std::vector<double> read_conductances(const Mesh_dual_graph<FaceListGraph>& graph,
+  static std::vector<double> renumber_and_read(Mesh_dual_graph<FaceListGraph>& graph,
                                                const ConductanceMap& conductance) {
-    std::vector<double> values = internal::read_edge_values(graph, conductance, "the conductance");
+    const std::vector<double> values = internal::read_edge_values(graph, conductance, "the conductance");
     for (const double value : values)
       if (!std::isfinite(value)) throw internal::argument_error("a conductance", value, "finite");
-    return values;
+    std::vector<double> renumbered;
+    renumbered.reserve(values.size());
+    for (const Dual_graph::Index former : graph.renumber_along_surface()) renumbered.push_back(values[former]);
+    return renumbered;
   }
 
   Dual_graph::Index index(face_descriptor face) const {
@@ -171,11 +175,12 @@ class Random_walk {
   /// Compares the faces themselves, since some meshes go on counting those that have been removed.
   void check_faces() const {
     check_counts();
-    auto known = graph_->face_descriptors().begin();
-    const auto end = graph_->face_descriptors().end();
-    for (const face_descriptor face : faces(*mesh_))
-      if (known == end || *known++ != face) refuse_changed_mesh();
-    if (known != end) refuse_changed_mesh();
+    std::size_t number = 0;
+    for (const face_descriptor face : faces(*mesh_)) {
+      if (!has_face(face)) refuse_changed_mesh();
+      ++number;
+    }
+    if (number != graph_->number_of_faces()) refuse_changed_mesh();
   }
 
   template <class SegmentIdMap>
@@ -192,7 +197,7 @@ class Random_walk {
   }
 
   const FaceListGraph* mesh_;
-  std::unique_ptr<const Mesh_dual_graph<FaceListGraph>> graph_;
+  std::unique_ptr<Mesh_dual_graph<FaceListGraph>> graph_;  // stays where the walk refers to it
   internal::Graph_walk<Solver> walk_;
   std::size_t faces_at_start_, edges_at_start_;
 };

@@ -36,7 +36,7 @@ class Descriptor_table {
       if (position >= values_.size()) values_.resize(position + 1, absent_);
       values_[position] = value;
     } else {
-      values_.emplace(descriptor, value);
+      values_.insert_or_assign(descriptor, value);
     }
   }
 
