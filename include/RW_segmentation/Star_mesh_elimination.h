@@ -6,15 +6,20 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Elimination_plan.h>
 #include <RW_segmentation/internal/front_kernels.h>
+#include <RW_segmentation/internal/parallel_for.h>
+
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -31,6 +36,8 @@ namespace RW_segmentation {
 /// (d_k = 0) instead of by a failing factorisation. Ordinary Cholesky has none of this: see the manual.
 ///
 /// The elimination is multifrontal: approximate minimum degree ordering, once for a mesh; supernodes; dense fronts.
+/// Where TBB is linked (`CGAL_LINKED_WITH_TBB`), subtrees of the elimination tree and the rows of the large fronts above
+/// them are shared among threads, with the same result for any number of them.
 ///
 /// Complexity on surface meshes with m faces, as measured: O(m^1.3) time to factorise, O(m log m) memory (about
 /// 450 bytes a face at 640 000 faces), O(m log m) time for each block of 8 labels. Not safe to use from several
@@ -124,6 +131,27 @@ class Star_mesh_elimination {
     throw std::invalid_argument("Star_mesh_elimination: no walk from face " + std::to_string(face) + " is absorbed");
   }
 
+  using Concurrency_tag = CGAL::Parallel_if_available_tag;
+
+  /// The numbers that a supernode leaves for its parent: conductances between its rows, column by column on and below
+  /// the diagonal, then those from its rows to seeds eliminated.
+  struct Left {
+    Index supernode;
+    const double* numbers;
+  };
+  struct Workspace;
+
+  std::vector<double> eliminate_subtree(const internal::Elimination_plan::Subtree& subtree,
+                                        const std::vector<double>& conductances, Workspace& workspace);
+  template <bool in_parallel>
+  void eliminate_supernode(Index s, const std::vector<double>& conductances, const Left* children, Workspace& workspace,
+                           double* left);
+  void assemble(const Supernode& supernode, const std::vector<double>& conductances, const Left* children,
+                Workspace& workspace) const;
+
+  template <std::size_t labels>
+  void substitute_back(Index s, std::vector<double>& front, std::vector<double>& x) const;
+
   internal::Elimination_plan plan_;
   std::size_t number_of_edges_ = 0;
   std::vector<Index> absorbing_faces_;
@@ -136,6 +164,22 @@ class Star_mesh_elimination {
 };
 
 // -------------------------------------------------------------------------------------------------------------------
+
+/// Scratch memory of one thread.
+struct Star_mesh_elimination::Workspace {
+  explicit Workspace(const internal::Elimination_plan& plan)
+      : panel(plan.largest_panel),
+        remainder(plan.largest_row_count * plan.largest_row_count),
+        scaled(plan.largest_front * internal::front_block),
+        packed(internal::kernel::packed_size(plan.largest_front)),
+        ground(plan.largest_front),
+        stack(plan.stack_size),
+        row_in_front(plan.face.size()),
+        child_rows(plan.largest_row_count) {}
+
+  std::vector<double> panel, remainder, scaled, packed, ground, stack;
+  std::vector<Index> row_in_front, child_rows;  // by position; of a child's rows
+};
 
 inline void Star_mesh_elimination::factorize(const std::vector<double>& conductances,
                                              const std::vector<Index>& absorbing_faces, const Progress& progress) {
@@ -152,70 +196,122 @@ inline void Star_mesh_elimination::factorize(const std::vector<double>& conducta
   // Uninitialised on purpose: every entry is written once below.
   if (!transition_) transition_.reset(new double[plan_.factor_size]);
   sum_.assign(n, 0);
-  has_unreached_faces_ = false;
 
-  const std::size_t largest = plan_.largest_front;
-  std::vector<double> panel(plan_.largest_panel), remainder(plan_.largest_row_count * plan_.largest_row_count),
-      scaled(largest * internal::front_block), packed(internal::kernel::packed_size(largest)), front_ground(largest),
-      ground(n, 0.);
-  std::unique_ptr<double[]> stack(new double[plan_.stack_size]);
-  std::vector<Index> local(n), child_rows(plan_.largest_row_count), waiting;
-  double* top = stack.get();
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<std::size_t> supernodes_done = 0;
+  const auto count = [&](std::size_t supernodes) {
+    const std::size_t done = supernodes_done += supernodes;
+    if (std::this_thread::get_id() == caller)
+      progress(static_cast<double>(done) / static_cast<double>(plan_.supernodes.size()));
+  };
+  internal::Workspaces<Workspace, Concurrency_tag> workspaces([&] { return Workspace(plan_); });
+  std::vector<std::vector<double>> left_by_subtree(plan_.subtrees.size());
+  internal::parallel_tasks<Concurrency_tag>(plan_.subtrees.size(), [&](std::size_t t) {
+    const auto& subtree = plan_.subtrees[t];
+    left_by_subtree[t] = eliminate_subtree(subtree, conductances, workspaces.local());
+    count(subtree.root + std::size_t(1) - subtree.first);
+  });
 
-  for (std::size_t s = 0; s < plan_.supernodes.size(); ++s) {
-    if (s % 4096 == 0) progress(static_cast<double>(s) / static_cast<double>(plan_.supernodes.size()));
-    const Supernode& supernode = plan_.supernodes[s];
-    const std::size_t pivots = supernode.column_count(), rows = supernode.row_count, size = pivots + rows;
-    const Index* row = plan_.rows.data() + supernode.rows_begin;
-    for (std::size_t j = 0; j < pivots; ++j) local[supernode.begin + j] = static_cast<Index>(j);
-    for (std::size_t i = 0; i < rows; ++i) local[row[i]] = static_cast<Index>(pivots + i);
-
-    std::fill_n(panel.data(), size * pivots, 0.);
-    std::fill_n(remainder.data(), rows * rows, 0.);
-    for (std::size_t j = 0; j < pivots; ++j)
-      for (std::size_t q = plan_.later_begin[supernode.begin + j]; q < plan_.later_begin[supernode.begin + j + 1]; ++q)
-        panel[j * size + local[plan_.later[q].position]] += conductances[plan_.later[q].edge];
-    for (Index child = 0; child < supernode.children; ++child, waiting.pop_back()) {
-      const Supernode& below = plan_.supernodes[waiting.back()];
-      const std::size_t count = below.row_count;
-      for (std::size_t i = 0; i < count; ++i) child_rows[i] = local[plan_.rows[below.rows_begin + i]];
-      top -= below.remainder_size();
-      const double* value = top;
-      for (std::size_t j = 0; j < count; ++j) {
-        const std::size_t column = child_rows[j];
-        double* target =
-            column < pivots ? panel.data() + column * size : remainder.data() + (column - pivots) * rows - pivots;
-        for (std::size_t i = j; i < count; ++i) target[child_rows[i]] += *value++;
-      }
-    }
-
-    internal::Front front{pivots,
-                          rows,
-                          panel.data(),
-                          remainder.data(),
-                          absorbing_.data() + supernode.begin,
-                          nullptr,
-                          sum_.data() + supernode.begin,
-                          transition_.get() + supernode.factor_begin,
-                          scaled.data(),
-                          packed.data()};
-    if (carries_current_[s]) {
-      front.ground = front_ground.data();
-      for (std::size_t j = 0; j < pivots; ++j) front_ground[j] = ground[supernode.begin + j];
-      for (std::size_t i = 0; i < rows; ++i) front_ground[pivots + i] = ground[row[i]];
-    }
-    internal::eliminate(front, instructions_);
-    if (carries_current_[s])
-      for (std::size_t i = 0; i < rows; ++i) ground[row[i]] = front_ground[pivots + i];
-    for (std::size_t j = 0; j < pivots; ++j)
-      has_unreached_faces_ |= !(sum_[supernode.begin + j] > 0) && !absorbing_[supernode.begin + j];
-
-    if (supernode.parent == none) continue;
-    waiting.push_back(static_cast<Index>(s));
-    for (std::size_t j = 0; j < rows; ++j)
-      top = std::copy(&remainder[j * rows + j], remainder.data() + (j + 1) * rows, top);
+  std::vector<Left> waiting;
+  std::vector<std::vector<double>> numbers;  // of those waiting
+  std::size_t next_subtree = 0;
+  const auto wait_for_parent = [&](Index s, std::vector<double> left) {
+    if (plan_.supernodes[s].parent == none) return;
+    waiting.push_back({s, left.data()});
+    numbers.push_back(std::move(left));
+  };
+  for (const Index s : plan_.top) {
+    for (; next_subtree < plan_.subtrees.size() && plan_.subtrees[next_subtree].root < s; ++next_subtree)
+      wait_for_parent(plan_.subtrees[next_subtree].root, std::move(left_by_subtree[next_subtree]));
+    std::vector<double> left(plan_.supernodes[s].left_size());
+    const std::size_t others = waiting.size() - plan_.supernodes[s].children;
+    eliminate_supernode<true>(s, conductances, waiting.data() + others, workspaces.local(), left.data());
+    waiting.resize(others);
+    numbers.resize(others);
+    wait_for_parent(s, std::move(left));
+    count(1);
   }
+  has_unreached_faces_ = false;
+  for (std::size_t k = 0; k < n; ++k) has_unreached_faces_ |= !(sum_[k] > 0) && !absorbing_[k];
   progress(1);
+}
+
+/// \returns what the root leaves for its parent
+inline std::vector<double> Star_mesh_elimination::eliminate_subtree(const internal::Elimination_plan::Subtree& subtree,
+                                                                    const std::vector<double>& conductances,
+                                                                    Workspace& workspace) {
+  std::vector<Left> waiting;
+  double* top = workspace.stack.data();
+  for (Index s = subtree.first; s <= subtree.root; ++s) {
+    const Supernode& supernode = plan_.supernodes[s];
+    const std::size_t others = waiting.size() - supernode.children;
+    for (std::size_t child = others; child < waiting.size(); ++child)
+      top -= plan_.supernodes[waiting[child].supernode].left_size();
+    eliminate_supernode<false>(s, conductances, waiting.data() + others, workspace, top);
+    waiting.resize(others);
+    waiting.push_back({s, top});
+    top += supernode.left_size();
+  }
+  return {workspace.stack.data(), top};
+}
+
+/// \param left output, may lie where the numbers of the first child lie
+template <bool in_parallel>
+void Star_mesh_elimination::eliminate_supernode(Index s, const std::vector<double>& conductances, const Left* children,
+                                                Workspace& workspace, double* left) {
+  const Supernode& supernode = plan_.supernodes[s];
+  const std::size_t pivots = supernode.column_count(), rows = supernode.row_count;
+  assemble(supernode, conductances, children, workspace);
+  const internal::Front front{pivots,
+                              rows,
+                              workspace.panel.data(),
+                              workspace.remainder.data(),
+                              absorbing_.data() + supernode.begin,
+                              carries_current_[s] ? workspace.ground.data() : nullptr,
+                              sum_.data() + supernode.begin,
+                              transition_.get() + supernode.factor_begin,
+                              workspace.scaled.data(),
+                              workspace.packed.data()};
+  if constexpr (in_parallel)
+    internal::eliminate_in_parallel<Concurrency_tag>(front, instructions_);
+  else
+    internal::eliminate(front, instructions_);
+  for (std::size_t j = 0; j < rows; ++j)
+    left = std::copy(&front.remainder[j * rows + j], front.remainder + (j + 1) * rows, left);
+  if (carries_current_[s]) std::copy_n(front.ground + pivots, rows, left);
+}
+
+/// Fills the front of a supernode with the conductances of the graph and what the children have left.
+inline void Star_mesh_elimination::assemble(const Supernode& supernode, const std::vector<double>& conductances,
+                                            const Left* children, Workspace& workspace) const {
+  const std::size_t pivots = supernode.column_count(), rows = supernode.row_count, size = pivots + rows;
+  const Index* row = plan_.rows.data() + supernode.rows_begin;
+  double *const panel = workspace.panel.data(), *const remainder = workspace.remainder.data();
+  Index* const row_in_front = workspace.row_in_front.data();
+  for (std::size_t j = 0; j < pivots; ++j) row_in_front[supernode.begin + j] = static_cast<Index>(j);
+  for (std::size_t i = 0; i < rows; ++i) row_in_front[row[i]] = static_cast<Index>(pivots + i);
+
+  std::fill_n(panel, size * pivots, 0.);
+  std::fill_n(remainder, rows * rows, 0.);
+  std::fill_n(workspace.ground.data(), size, 0.);
+  for (std::size_t j = 0; j < pivots; ++j)
+    for (std::size_t q = plan_.later_begin[supernode.begin + j]; q < plan_.later_begin[supernode.begin + j + 1]; ++q)
+      panel[j * size + row_in_front[plan_.later[q].position]] += conductances[plan_.later[q].edge];
+  for (Index c = supernode.children; c-- > 0;) {
+    const auto& [child, numbers] = children[c];
+    const Supernode& below = plan_.supernodes[child];
+    const std::size_t count = below.row_count;
+    Index* const child_rows = workspace.child_rows.data();
+    for (std::size_t i = 0; i < count; ++i) child_rows[i] = row_in_front[plan_.rows[below.rows_begin + i]];
+    const double* value = numbers;
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::size_t column = child_rows[j];
+      double* target = column < pivots ? panel + column * size : remainder + (column - pivots) * rows - pivots;
+      for (std::size_t i = j; i < count; ++i) target[child_rows[i]] += *value++;
+    }
+    if (carries_current_[child])
+      for (std::size_t i = 0; i < count; ++i) workspace.ground[child_rows[i]] += *value++;
+  }
 }
 
 inline void Star_mesh_elimination::potentials(const Potentials& boundary_values, Potentials& potentials) const {
@@ -244,9 +340,14 @@ void Star_mesh_elimination::solve_columns(const Potentials& boundary_values, Eig
   x.assign(plan_.face.size() * labels, 0.);
   forward<labels>(carries_current_, boundary, x);
   backward<labels>({}, boundary, x);
+  constexpr std::size_t faces_at_once = 16384;
+  const std::size_t faces = plan_.face.size();
   const auto write = [&](auto number) {  // known when compiled where it can be: a call for each face costs more
-    for (std::size_t face = 0; face < plan_.face.size(); ++face)
-      std::copy_n(&x[plan_.position[face] * labels], number, &potentials(static_cast<Eigen::Index>(face), first));
+    internal::parallel_tasks<Concurrency_tag>((faces + faces_at_once - 1) / faces_at_once, [&](std::size_t task) {
+      const std::size_t end = std::min((task + 1) * faces_at_once, faces);
+      for (std::size_t face = task * faces_at_once; face < end; ++face)
+        std::copy_n(&x[plan_.position[face] * labels], number, &potentials(static_cast<Eigen::Index>(face), first));
+    });
   };
   if (width == labels)
     write(std::integral_constant<Eigen::Index, labels>());
@@ -327,20 +428,32 @@ void Star_mesh_elimination::backward(const std::vector<char>& marked, const std:
                                      std::vector<double>& x) const {
   for (std::size_t r = 0; r < absorbing_faces_.size(); ++r)
     std::copy_n(&boundary[r * labels], labels, &x[plan_.position[absorbing_faces_[r]] * labels]);
-  std::vector<double> front(plan_.largest_front * labels);
-  for (std::size_t s = plan_.supernodes.size(); s-- > 0;) {
-    if (!marked.empty() && !marked[s]) continue;
-    const Supernode& supernode = plan_.supernodes[s];
-    const std::size_t pivots = supernode.column_count();
-    const Index* row = plan_.rows.data() + supernode.rows_begin;
-    double* own = &x[supernode.begin * labels];
-    std::memcpy(front.data(), own, pivots * labels * sizeof(double));
-    for (std::size_t i = 0; i < supernode.row_count; ++i)
-      std::memcpy(&front[(pivots + i) * labels], &x[row[i] * labels], labels * sizeof(double));
-    internal::substitute<labels>(transition_.get() + supernode.factor_begin, pivots, supernode.row_count,
-                                 absorbing_.data() + supernode.begin, front.data(), instructions_);
-    std::memcpy(own, front.data(), pivots * labels * sizeof(double));
-  }
+  internal::Workspaces<std::vector<double>, Concurrency_tag> fronts(
+      [&] { return std::vector<double>(plan_.largest_front * labels); });
+  const auto is_marked = [&](Index s) { return marked.empty() || marked[s]; };
+  for (auto s = plan_.top.rbegin(); s != plan_.top.rend(); ++s)
+    if (is_marked(*s)) substitute_back<labels>(*s, fronts.local(), x);
+  internal::parallel_tasks<Concurrency_tag>(plan_.subtrees.size(), [&](std::size_t t) {
+    const auto& [first, root] = plan_.subtrees[t];
+    if (!is_marked(root)) return;
+    auto& front = fronts.local();
+    for (Index s = root + 1; s-- > first;)
+      if (is_marked(s)) substitute_back<labels>(s, front, x);
+  });
+}
+
+template <std::size_t labels>
+void Star_mesh_elimination::substitute_back(Index s, std::vector<double>& front, std::vector<double>& x) const {
+  const Supernode& supernode = plan_.supernodes[s];
+  const std::size_t pivots = supernode.column_count();
+  const Index* row = plan_.rows.data() + supernode.rows_begin;
+  double* own = &x[supernode.begin * labels];
+  std::memcpy(front.data(), own, pivots * labels * sizeof(double));
+  for (std::size_t i = 0; i < supernode.row_count; ++i)
+    std::memcpy(&front[(pivots + i) * labels], &x[row[i] * labels], labels * sizeof(double));
+  internal::substitute<labels>(transition_.get() + supernode.factor_begin, pivots, supernode.row_count,
+                               absorbing_.data() + supernode.begin, front.data(), instructions_);
+  std::memcpy(own, front.data(), pivots * labels * sizeof(double));
 }
 
 }  // namespace RW_segmentation

@@ -21,7 +21,7 @@ namespace RW_segmentation::internal {
 /// Depends on the graph alone. Faces are renumbered by their place in the order, their *position*. A supernode is a
 /// range of positions eliminated together; its *rows* are the later positions it is connected to by then, in
 /// ascending order. Every supernode stands behind all of its children (postorder), the last child right before it, so
-/// that what children leave for their parent can be kept on a stack.
+/// that what children leave for their parent can be kept on a stack, and every subtree is a range of supernodes.
 class Elimination_plan {
  public:
   using Index = Dual_graph::Index;
@@ -47,8 +47,18 @@ class Elimination_plan {
       const std::size_t columns = column_count();
       return columns * (columns - 1) / 2 + columns * row_count;
     }
-    /// Entries on and below the diagonal of what is left for the parent.
-    std::size_t remainder_size() const { return std::size_t(row_count) * (row_count + std::size_t(1)) / 2; }
+    /// Numbers left for the parent: entries on and below the diagonal of the rows, and one more for each row.
+    std::size_t left_size() const { return std::size_t(row_count) * (row_count + std::size_t(3)) / 2; }
+    /// Multiplications and additions, about.
+    double work() const {
+      const double columns = column_count(), front = static_cast<double>(front_size());
+      return columns * front * front;
+    }
+  };
+
+  /// A range of supernodes: all those below and with the last one.
+  struct Subtree {
+    Index first, root;
   };
 
   std::vector<Index> position;  ///< of each face
@@ -59,7 +69,11 @@ class Elimination_plan {
   std::vector<Index> supernode_of;  ///< each position
   std::vector<Index> rows;
   std::size_t factor_size = 0;
-  std::size_t largest_front = 0, largest_panel = 0, largest_row_count = 0, stack_size = 0;
+  std::size_t largest_front = 0, largest_panel = 0, largest_row_count = 0;
+  /// Subtrees that can be eliminated at the same time, each of them much less than all the work, in ascending order.
+  std::vector<Subtree> subtrees;
+  std::vector<Index> top;      ///< the supernodes above all subtrees, in ascending order
+  std::size_t stack_size = 0;  ///< the largest of what waits for parents within a subtree
 
   Elimination_plan() = default;
 
@@ -69,7 +83,9 @@ class Elimination_plan {
     const std::vector<Index> parent = number_in_postorder(graph, elimination_tree());
     group_columns(parent, row_counts(parent));
     collect_rows();
-    measure_stack();
+    measure();
+    cut_off_subtrees();
+    for (const Subtree& subtree : subtrees) stack_size = std::max(stack_size, stack_height(subtree));
   }
 
  private:
@@ -102,7 +118,21 @@ class Elimination_plan {
 
   void group_columns(const std::vector<Index>& parent, const std::vector<Index>& count);
   void collect_rows();
-  void measure_stack();
+  void measure();
+  void cut_off_subtrees();
+
+  /// The largest of what waits for parents at any one time, and what the root leaves at last.
+  std::size_t stack_height(const Subtree& subtree) const {
+    std::size_t height = 0, largest = 0;
+    std::vector<std::size_t> waiting;
+    for (Index s = subtree.first; s <= subtree.root; ++s) {
+      for (Index child = 0; child < supernodes[s].children; ++child, waiting.pop_back()) height -= waiting.back();
+      waiting.push_back(supernodes[s].left_size());
+      height += waiting.back();
+      largest = std::max(largest, height);
+    }
+    return largest;
+  }
 };
 
 inline std::vector<Dual_graph::Index> Elimination_plan::minimum_degree_order(const Dual_graph& graph) {
@@ -280,20 +310,38 @@ inline void Elimination_plan::collect_rows() {
   }
 }
 
-inline void Elimination_plan::measure_stack() {
-  std::size_t height = 0;
-  std::vector<std::size_t> waiting;
+inline void Elimination_plan::measure() {
   for (Supernode& supernode : supernodes) {
     supernode.factor_begin = factor_size;
     factor_size += supernode.factor_size();
     largest_front = std::max(largest_front, supernode.front_size());
     largest_panel = std::max(largest_panel, supernode.front_size() * supernode.column_count());
     largest_row_count = std::max<std::size_t>(largest_row_count, supernode.row_count);
-    for (Index child = 0; child < supernode.children; ++child, waiting.pop_back()) height -= waiting.back();
-    if (supernode.parent == none) continue;
-    waiting.push_back(supernode.remainder_size());
-    height += waiting.back();
-    stack_size = std::max(stack_size, height);
+  }
+}
+
+/// The cut depends on the graph alone, and with it the order of all sums: the number of threads changes no result.
+inline void Elimination_plan::cut_off_subtrees() {
+  constexpr double share_of_all = 1. / 32, smallest = 1e7;
+  std::vector<double> work(supernodes.size(), 0.);  // of the subtree
+  std::vector<Index> first(supernodes.size());
+  double all = 0;
+  for (std::size_t s = 0; s < supernodes.size(); ++s) first[s] = static_cast<Index>(s);
+  for (std::size_t s = 0; s < supernodes.size(); ++s) {
+    work[s] += supernodes[s].work();
+    all += supernodes[s].work();
+    if (const Index parent = supernodes[s].parent; parent != none) {
+      work[parent] += work[s];
+      first[parent] = std::min(first[parent], first[s]);
+    }
+  }
+  const double largest = std::max(all * share_of_all, smallest);
+  for (std::size_t s = 0; s < supernodes.size(); ++s) {
+    const Index parent = supernodes[s].parent;
+    if (work[s] > largest)
+      top.push_back(static_cast<Index>(s));
+    else if (parent == none || work[parent] > largest)
+      subtrees.push_back({first[s], static_cast<Index>(s)});
   }
 }
 

@@ -1,6 +1,8 @@
 #ifndef RW_SEGMENTATION_INTERNAL_FRONT_KERNELS_H
 #define RW_SEGMENTATION_INTERNAL_FRONT_KERNELS_H
 
+#include <RW_segmentation/internal/parallel_for.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +31,7 @@ struct Front {
   double* sum;                     ///< out, by pivot: d_k
   double* transition;              ///< out, packed columns below the diagonal: p_ki, or c_ki for a seed
   double* scaled;                  ///< scratch, (pivots + rows) x block
-  double* packed;                  ///< scratch, see `packed_size`
+  double* packed;                  ///< scratch, see `kernel::packed_size`
 };
 
 constexpr std::size_t front_block = 32;  // pivots eliminated before the rest of the front is brought up to date
@@ -40,10 +42,8 @@ namespace kernel {
 // longer than the registers badly, so each instruction set has its own length.
 constexpr std::size_t longest_vector = 8, tile_columns = 4;
 
-/// Scratch for `add_outer_product`.
-constexpr std::size_t packed_size(std::size_t largest_front) {
-  return (largest_front + 4 * longest_vector) * front_block * 2;
-}
+/// Scratch for the columns of an `Outer_product`.
+constexpr std::size_t packed_size(std::size_t largest_front) { return (largest_front + tile_columns) * front_block; }
 
 /// tile = the product of packed strips a (depth x 2 vectors) and b (depth x 4).
 template <std::size_t vector_length>
@@ -70,35 +70,51 @@ RW_SEGMENTATION_INLINE void multiply_tile(const double* a, const double* b, std:
 #endif
 }
 
-/// z(i, j) += sum_k y(i, k) p(j, k) for j < columns, j <= i < rows; y and p have the same leading dimension.
-template <std::size_t vector_length>
-RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, const double* y, const double* p,
-                                              std::size_t stride, std::size_t rows, std::size_t columns,
-                                              std::size_t depth, double* packed) {
-  constexpr std::size_t tile_rows = 2 * vector_length;
-  if (rows < 24 || depth < 4) {
-    for (std::size_t k = 0; k < depth; ++k, y += stride, p += stride)
-      for (std::size_t j = 0; j < columns; ++j) {
-        const double factor = p[j];
-        double* column = z + j * z_stride;
-        for (std::size_t i = j; i < rows; ++i) column[i] += y[i] * factor;
-      }
-    return;
-  }
-  double* const b = packed;
-  double* const a = packed + (columns + tile_columns) * depth;
-  for (std::size_t j = 0; j < columns; j += tile_columns)
-    for (std::size_t k = 0; k < depth; ++k)
+/// z(i, j) += sum_k y(i, k) p(j, k) for j < columns, j <= i < rows, k < depth; y and p have the same leading dimension.
+struct Outer_product {
+  double* z;
+  std::size_t z_stride;
+  const double *y, *p;
+  std::size_t stride, rows, columns, depth;
+};
+
+inline bool is_small(const Outer_product& product) { return product.rows < 24 || product.depth < 4; }
+
+/// Adds a small product as it stands.
+RW_SEGMENTATION_INLINE void add_small_product(const Outer_product& product) {
+  const double *y = product.y, *p = product.p;
+  for (std::size_t k = 0; k < product.depth; ++k, y += product.stride, p += product.stride)
+    for (std::size_t j = 0; j < product.columns; ++j) {
+      const double factor = p[j];
+      double* column = product.z + j * product.z_stride;
+      for (std::size_t i = j; i < product.rows; ++i) column[i] += y[i] * factor;
+    }
+}
+
+/// Packs p into strips of a tile's columns.
+RW_SEGMENTATION_INLINE void pack_columns(const Outer_product& product, double* packed) {
+  for (std::size_t j = 0; j < product.columns; j += tile_columns)
+    for (std::size_t k = 0; k < product.depth; ++k)
       for (std::size_t t = 0; t < tile_columns; ++t)
-        b[j * depth + k * tile_columns + t] = j + t < columns ? p[k * stride + j + t] : 0;
-  for (std::size_t i = 0; i < rows; i += tile_rows) {
+        packed[j * product.depth + k * tile_columns + t] =
+            j + t < product.columns ? product.p[k * product.stride + j + t] : 0;
+}
+
+/// Adds the rows from `begin`, a multiple of a tile's rows, to less than `end`.
+template <std::size_t vector_length>
+RW_SEGMENTATION_INLINE void add_rows(const Outer_product& product, const double* packed, std::size_t begin,
+                                     std::size_t end) {
+  constexpr std::size_t tile_rows = 2 * vector_length;
+  const auto& [z, z_stride, y, p, stride, rows, columns, depth] = product;
+  double a[tile_rows * front_block];
+  for (std::size_t i = begin; i < end; i += tile_rows) {
     const std::size_t height = std::min(tile_rows, rows - i);
     for (std::size_t k = 0; k < depth; ++k)
       for (std::size_t t = 0; t < tile_rows; ++t) a[k * tile_rows + t] = t < height ? y[k * stride + i + t] : 0;
     const std::size_t last = std::min(columns, i + height);
     for (std::size_t j = 0; j < last; j += tile_columns) {
       double tile[tile_columns][tile_rows];
-      multiply_tile<vector_length>(a, b + j * depth, depth, tile);
+      multiply_tile<vector_length>(a, packed + j * depth, depth, tile);
       const std::size_t width = std::min(tile_columns, last - j);
       for (std::size_t t = 0; t < width; ++t) {
         double* column = z + (j + t) * z_stride + i;
@@ -108,52 +124,89 @@ RW_SEGMENTATION_INLINE void add_outer_product(double* z, std::size_t z_stride, c
   }
 }
 
-/// Star-mesh transforms of the pivots in turn. Only sums, products and quotients of non-negative numbers: no digit
-/// is ever cancelled.
+/// What a block of eliminated pivots adds to the pivots left.
+inline Outer_product update_of_pivots(const Front& front, std::size_t begin, std::size_t end) {
+  const std::size_t size = front.pivots + front.rows;
+  return {front.panel + end * size + end,
+          size,
+          front.panel + begin * size + end,
+          front.scaled + end,
+          size,
+          size - end,
+          front.pivots - end,
+          end - begin};
+}
+
+/// What a block of eliminated pivots adds to the rows.
+inline Outer_product update_of_rows(const Front& front, std::size_t begin, std::size_t end) {
+  const std::size_t size = front.pivots + front.rows;
+  return {front.remainder,
+          front.rows,
+          front.panel + begin * size + front.pivots,
+          front.scaled + front.pivots,
+          size,
+          front.rows,
+          front.rows,
+          end - begin};
+}
+
+/// Star-mesh transforms of a block of pivots in turn, which bring the block itself up to date. Only sums, products and
+/// quotients of non-negative numbers: no digit is ever cancelled.
+/// \param transition where the block's columns of the result begin
+/// \returns where they end
+RW_SEGMENTATION_INLINE double* eliminate_block(const Front& front, std::size_t begin, std::size_t end,
+                                               double* transition) {
+  const std::size_t size = front.pivots + front.rows;
+  for (std::size_t k = begin; k < end; ++k) {
+    const double* c = front.panel + k * size;
+    double* p = front.scaled + (k - begin) * size;
+    if (front.absorbing[k]) {
+      if (front.ground)
+        for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += c[i];
+      std::memcpy(transition, c + k + 1, (size - k - 1) * sizeof(double));
+      transition += size - k - 1;
+      std::fill(p + k + 1, p + size, 0.);
+      front.sum[k] = 0;
+      continue;
+    }
+    double d = front.ground ? front.ground[k] : 0;
+    for (std::size_t i = k + 1; i < size; ++i) d += c[i];
+    front.sum[k] = d;
+    if (d > 1e-290) {
+      const double inverse = 1 / d;
+      for (std::size_t i = k + 1; i < size; ++i) p[i] = c[i] * inverse;
+    } else {  // the reciprocal would overflow, or the pivot is cut off from everything left
+      for (std::size_t i = k + 1; i < size; ++i) p[i] = d > 0 ? c[i] / d : 0;
+    }
+    if (front.ground && front.ground[k] > 0)
+      for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += p[i] * front.ground[k];
+    std::memcpy(transition, p + k + 1, (size - k - 1) * sizeof(double));
+    transition += size - k - 1;
+    for (std::size_t j = k + 1; j < end; ++j) {
+      const double factor = p[j];
+      double* column = front.panel + j * size;
+      for (std::size_t i = j + 1; i < size; ++i) column[i] += c[i] * factor;
+    }
+  }
+  return transition;
+}
+
+template <std::size_t vector_length>
+RW_SEGMENTATION_INLINE void add_outer_product(const Outer_product& product, double* packed) {
+  if (is_small(product)) return add_small_product(product);
+  pack_columns(product, packed);
+  add_rows<vector_length>(product, packed, 0, product.rows);
+}
+
+/// Eliminates all pivots of a front.
 template <std::size_t vector_length>
 RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
-  const std::size_t pivots = front.pivots, rows = front.rows, size = pivots + rows;
   double* transition = front.transition;
-  for (std::size_t begin = 0; begin < pivots; begin += front_block) {
-    const std::size_t end = std::min(pivots, begin + front_block);
-    for (std::size_t k = begin; k < end; ++k) {
-      const double* c = front.panel + k * size;
-      double* p = front.scaled + (k - begin) * size;
-      if (front.absorbing[k]) {
-        if (front.ground)
-          for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += c[i];
-        std::memcpy(transition, c + k + 1, (size - k - 1) * sizeof(double));
-        transition += size - k - 1;
-        std::fill(p + k + 1, p + size, 0.);
-        front.sum[k] = 0;
-        continue;
-      }
-      double d = front.ground ? front.ground[k] : 0;
-      for (std::size_t i = k + 1; i < size; ++i) d += c[i];
-      front.sum[k] = d;
-      if (d > 1e-290) {
-        const double inverse = 1 / d;
-        for (std::size_t i = k + 1; i < size; ++i) p[i] = c[i] * inverse;
-      } else {  // the reciprocal would overflow, or the pivot is cut off from everything left
-        for (std::size_t i = k + 1; i < size; ++i) p[i] = d > 0 ? c[i] / d : 0;
-      }
-      if (front.ground && front.ground[k] > 0)
-        for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += p[i] * front.ground[k];
-      std::memcpy(transition, p + k + 1, (size - k - 1) * sizeof(double));
-      transition += size - k - 1;
-      for (std::size_t j = k + 1; j < end; ++j) {
-        const double factor = p[j];
-        double* column = front.panel + j * size;
-        for (std::size_t i = j + 1; i < size; ++i) column[i] += c[i] * factor;
-      }
-    }
-    const double* y = front.panel + begin * size;
-    if (end < pivots)
-      add_outer_product<vector_length>(front.panel + end * size + end, size, y + end, front.scaled + end, size,
-                                       size - end, pivots - end, end - begin, front.packed);
-    if (rows > 0)
-      add_outer_product<vector_length>(front.remainder, rows, y + pivots, front.scaled + pivots, size, rows, rows,
-                                       end - begin, front.packed);
+  for (std::size_t begin = 0; begin < front.pivots; begin += front_block) {
+    const std::size_t end = std::min(front.pivots, begin + front_block);
+    transition = eliminate_block(front, begin, end, transition);
+    if (end < front.pivots) add_outer_product<vector_length>(update_of_pivots(front, begin, end), front.packed);
+    if (front.rows > 0) add_outer_product<vector_length>(update_of_rows(front, begin, end), front.packed);
   }
 }
 
@@ -244,6 +297,24 @@ inline Instruction_set best_instruction_set() {
 #ifdef RW_SEGMENTATION_X86_DISPATCH
 __attribute__((target("avx2,fma"))) inline void eliminate_avx2(const Front& front) { kernel::eliminate<4>(front); }
 __attribute__((target("avx512f,fma"))) inline void eliminate_avx512(const Front& front) { kernel::eliminate<8>(front); }
+__attribute__((target("avx2,fma"))) inline double* eliminate_block_avx2(const Front& front, std::size_t begin,
+                                                                        std::size_t end, double* transition) {
+  return kernel::eliminate_block(front, begin, end, transition);
+}
+__attribute__((target("avx512f,fma"))) inline double* eliminate_block_avx512(const Front& front, std::size_t begin,
+                                                                             std::size_t end, double* transition) {
+  return kernel::eliminate_block(front, begin, end, transition);
+}
+__attribute__((target("avx2,fma"))) inline void add_rows_avx2(const kernel::Outer_product& product,
+                                                              const double* packed, std::size_t begin,
+                                                              std::size_t end) {
+  kernel::add_rows<4>(product, packed, begin, end);
+}
+__attribute__((target("avx512f,fma"))) inline void add_rows_avx512(const kernel::Outer_product& product,
+                                                                   const double* packed, std::size_t begin,
+                                                                   std::size_t end) {
+  kernel::add_rows<8>(product, packed, begin, end);
+}
 __attribute__((target("avx2"))) inline void select_largest_avx2(const double* potential, double rank, std::size_t count,
                                                                 double* largest, double* best, double* total) {
   kernel::select_largest(potential, rank, count, largest, best, total);
@@ -273,6 +344,47 @@ inline void eliminate(const Front& front, Instruction_set set) {
 #endif
   static_cast<void>(set);
   kernel::eliminate<2>(front);
+}
+
+inline double* eliminate_block(const Front& front, std::size_t begin, std::size_t end, double* transition,
+                               Instruction_set set) {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  if (set == Instruction_set::avx512) return eliminate_block_avx512(front, begin, end, transition);
+  if (set == Instruction_set::avx2) return eliminate_block_avx2(front, begin, end, transition);
+#endif
+  static_cast<void>(set);
+  return kernel::eliminate_block(front, begin, end, transition);
+}
+
+inline void add_rows(const kernel::Outer_product& product, const double* packed, std::size_t begin, std::size_t end,
+                     Instruction_set set) {
+#ifdef RW_SEGMENTATION_X86_DISPATCH
+  if (set == Instruction_set::avx512) return add_rows_avx512(product, packed, begin, end);
+  if (set == Instruction_set::avx2) return add_rows_avx2(product, packed, begin, end);
+#endif
+  static_cast<void>(set);
+  kernel::add_rows<2>(product, packed, begin, end);
+}
+
+/// As `eliminate`, with the same result; the products of a large front are shared among threads.
+template <class ConcurrencyTag>
+void eliminate_in_parallel(const Front& front, Instruction_set set) {
+  constexpr std::size_t rows_per_task = 8 * 2 * kernel::longest_vector;
+  const auto add = [&](const kernel::Outer_product& product) {
+    if (is_small(product)) return kernel::add_small_product(product);
+    kernel::pack_columns(product, front.packed);
+    parallel_tasks<ConcurrencyTag>((product.rows + rows_per_task - 1) / rows_per_task, [&](std::size_t task) {
+      const std::size_t begin = task * rows_per_task;
+      add_rows(product, front.packed, begin, std::min(begin + rows_per_task, product.rows), set);
+    });
+  };
+  double* transition = front.transition;
+  for (std::size_t begin = 0; begin < front.pivots; begin += front_block) {
+    const std::size_t end = std::min(front.pivots, begin + front_block);
+    transition = eliminate_block(front, begin, end, transition, set);
+    if (end < front.pivots) add(kernel::update_of_pivots(front, begin, end));
+    if (front.rows > 0) add(kernel::update_of_rows(front, begin, end));
+  }
 }
 
 inline void select_largest(const double* potential, double rank, std::size_t count, double* largest, double* best,

@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 #endif
 
 #include <algorithm>
@@ -17,6 +18,78 @@
 
 namespace RW_segmentation::internal {
 
+/// Whether a concurrency tag of CGAL's means threads, which it does where TBB is linked.
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
+template <class ConcurrencyTag>
+constexpr bool has_threads() {
+  constexpr bool parallel = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
+#ifdef CGAL_LINKED_WITH_TBB
+  return parallel;
+#else
+  static_assert(!parallel, "CGAL::Parallel_tag needs TBB: link with it and define CGAL_LINKED_WITH_TBB.");
+  return false;
+#endif
+}
+
+/// A workspace for each thread, made when first asked for.
+template <class Workspace, class ConcurrencyTag>
+class Workspaces {
+ public:
+  template <class Make>
+  explicit Workspaces(const Make& make) : workspaces_(make) {}
+
+  /// That of the calling thread.
+  Workspace& local() { return workspaces_.local(); }
+
+ private:
+#ifdef CGAL_LINKED_WITH_TBB
+  using For_threads = tbb::enumerable_thread_specific<Workspace>;
+#else
+  using For_threads = Workspace;
+#endif
+  struct For_one {
+    template <class Make>
+    explicit For_one(const Make& make) : workspace(make()) {}
+    Workspace& local() { return workspace; }
+    Workspace workspace;
+  };
+  std::conditional_t<has_threads<ConcurrencyTag>(), For_threads, For_one> workspaces_;
+};
+
+/// Calls `task(i)` for i = 0 .. `number` - 1, each of which is worth a thread.
+template <class ConcurrencyTag, class Task>
+void parallel_tasks(std::size_t number, const Task& task) {
+  if constexpr (has_threads<ConcurrencyTag>()) {
+#ifdef CGAL_LINKED_WITH_TBB
+    tbb::parallel_for(std::size_t(0), number, task, tbb::simple_partitioner());
+#endif
+  } else {
+    for (std::size_t i = 0; i < number; ++i) task(i);
+  }
+}
+
+/// Calls `here()`, from the calling thread, and `in_background()`, at the same time if there are threads.
+template <class ConcurrencyTag, class Background, class Here>
+void at_the_same_time(const Background& in_background, const Here& here) {
+  if constexpr (has_threads<ConcurrencyTag>()) {
+#ifdef CGAL_LINKED_WITH_TBB
+    tbb::task_group group;
+    group.run(in_background);
+    try {
+      here();
+    } catch (...) {
+      group.cancel();
+      group.wait();
+      throw;
+    }
+    group.wait();
+#endif
+  } else {
+    here();
+    in_background();
+  }
+}
+
 /// Calls `worker(i)` for i = 0 .. `number` - 1, with a worker of its own for each thread, made by `make_worker()`.
 /// Reports progress from the calling thread.
 ///
@@ -24,14 +97,6 @@ namespace RW_segmentation::internal {
 /// \throws Cancelled
 template <class ConcurrencyTag, class MakeWorker>
 void parallel_for(std::size_t number, const MakeWorker& make_worker, const Progress& progress) {
-  constexpr bool parallel = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
-#ifdef CGAL_LINKED_WITH_TBB
-  constexpr bool has_threads = parallel;
-#else
-  static_assert(!parallel, "CGAL::Parallel_tag needs TBB: link with it and define CGAL_LINKED_WITH_TBB.");
-  constexpr bool has_threads = false;
-#endif
-
   constexpr std::size_t between_reports = 4096;
   const auto in_stretches = [&](const auto& run) {
     for (std::size_t begin = 0; begin < number; begin += between_reports) {
@@ -40,7 +105,7 @@ void parallel_for(std::size_t number, const MakeWorker& make_worker, const Progr
     }
     progress(1);
   };
-  if constexpr (has_threads) {
+  if constexpr (has_threads<ConcurrencyTag>()) {
 #ifdef CGAL_LINKED_WITH_TBB
     tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
     in_stretches([&](std::size_t begin, std::size_t end) {
