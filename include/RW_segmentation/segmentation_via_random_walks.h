@@ -12,11 +12,13 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Face_geometry.h>
 #include <RW_segmentation/internal/Graph_walk.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -169,7 +171,8 @@ std::vector<Dual_graph::Index> fragment_seeds(const Dual_graph& graph, const Fac
 }
 
 /// The fragments that walks from the seeds make. A component with a single seed needs no walk.
-inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, const std::vector<double>& conductances,
+inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, Star_mesh_elimination analysed,
+                                               const std::vector<double>& conductances,
                                                const std::vector<Dual_graph::Index>& seeds, const Components& component,
                                                const Progress& progress, Segmentation_report& report) {
   std::vector<std::size_t> seeds_in(component.count, 0);
@@ -182,7 +185,7 @@ inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, const st
   std::vector<std::size_t> labels(walked.size());
   std::iota(labels.begin(), labels.end(), std::size_t(0));
   Walk_report walk;
-  labels = walk_labels(graph, conductances, walked, labels, progress, &walk);
+  labels = walk_labels(graph, conductances, walked, labels, progress, &walk, std::optional(std::move(analysed)));
   report.island_faces = walk.island_faces;
   return labels;
 }
@@ -237,31 +240,38 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   Segmentation_report report;
   internal::Stage_clock clock(report.stages);
 
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
+  Mesh_dual_graph<FaceListGraph> graph(mesh);
+  graph.renumber_along_surface();
   internal::Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
   internal::Face_geometry geometry = internal::face_geometry(mesh, graph, point);
   const std::vector<Dual_graph::Index> given = internal::read_seeds(graph, given_seeds);
   if (graph.number_of_faces() == 0) return {};
   clock.note("mesh");
 
-  std::vector<Eigen::Vector3d> normals;
-  std::tie(normals, report.has_heavy_noise) =
-      internal::smooth_normals_and_vertices(mesh, graph, point, geometry, policy.smoothing, progress.part(0, 0.3));
-  clock.note("normals");
-  const std::vector<double> difference = internal::excess(  // Eq. 4-5
-      internal::dihedral_difference(graph, geometry, normals, policy.convex_weight, policy.measure),
-      policy.ordinary_difference);
-  std::vector<double> conductances =  // Eq. 6
-      internal::conductances(geometry.edge_length, difference, policy.sigma, policy.cap);
-  internal::cut_constrained_edges(graph, np, conductances);
-  clock.note("conductances");
-
-  const internal::Components component = internal::components(graph, conductances);
-  const std::vector<Dual_graph::Index> seeds =
-      internal::fragment_seeds(graph, geometry, normals, given, component, policy, progress.part(0.3, 0.4));
-  clock.note("seeds");
-  std::vector<std::size_t> fragment_of_face =
-      internal::walk_fragments(graph, conductances, seeds, component, progress.part(0.4, 0.8), report);
+  std::vector<double> difference, conductances;
+  internal::Components component;
+  std::vector<Dual_graph::Index> seeds;
+  const auto prepare_walk = [&] {
+    std::vector<Eigen::Vector3d> normals;
+    std::tie(normals, report.has_heavy_noise) =
+        internal::smooth_normals_and_vertices(mesh, graph, point, geometry, policy.smoothing, progress.part(0, 0.3));
+    clock.note("normals");
+    difference = internal::excess(  // Eq. 4-5
+        internal::dihedral_difference(graph, geometry, normals, policy.convex_weight, policy.measure),
+        policy.ordinary_difference);
+    conductances = internal::conductances(geometry.edge_length, difference, policy.sigma, policy.cap);  // Eq. 6
+    internal::cut_constrained_edges(graph, np, conductances);
+    component = internal::components(graph, conductances);
+    clock.note("conductances");
+    seeds = internal::fragment_seeds(graph, geometry, normals, given, component, policy, progress.part(0.3, 0.4));
+    clock.note("seeds");
+  };
+  // The order of elimination depends on none of these.
+  Star_mesh_elimination solver;
+  internal::at_the_same_time<CGAL::Parallel_if_available_tag>([&] { solver.analyze(graph); }, prepare_walk);
+  clock.note("ordering");
+  std::vector<std::size_t> fragment_of_face = internal::walk_fragments(graph, std::move(solver), conductances, seeds,
+                                                                       component, progress.part(0.4, 0.8), report);
   clock.note("walk");
 
   report.components = component.count;

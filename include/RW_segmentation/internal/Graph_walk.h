@@ -6,9 +6,13 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/front_kernels.h>
+#include <RW_segmentation/internal/parallel_for.h>
+
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -101,6 +105,12 @@ class Graph_walk {
         progress_(std::move(progress)) {
     normalise_conductances();
     components_ = components(graph, conductances_);
+  }
+
+  /// Takes a solver that has analysed the graph; before the first solve.
+  void use_analysed(Solver solver) {
+    solver_ = std::move(solver);
+    analysed_ = true;
   }
 
   /// A face that is a seed already takes the new label.
@@ -276,6 +286,15 @@ class Graph_walk {
                                     labels_.begin());
   }
 
+  /// Calls `work(begin, end)` for stretches of faces, for several at the same time where there are threads.
+  template <class Work>
+  void for_stretches(const Work& work) const {
+    const std::size_t faces = graph_->number_of_faces();
+    parallel_tasks<CGAL::Parallel_if_available_tag>((faces + chunk - 1) / chunk, [&](std::size_t task) {
+      work(task * chunk, std::min((task + 1) * chunk, faces));
+    });
+  }
+
   bool has_column(Index face) const {
     return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.face == face; });
   }
@@ -423,10 +442,13 @@ void Graph_walk<Solver>::fill_columns() {
     solver_.potentials(boundary, result);
     for (Eigen::Index l = 0; l < width; ++l) {
       columns_.push_back({base_[static_cast<std::size_t>(first + l)], {}, 0});
-      auto& potential = columns_.back().potential;
-      potential.resize(graph_->number_of_faces());
-      for (std::size_t f = 0; f < potential.size(); ++f) potential[f] = result(static_cast<Eigen::Index>(f), l);
+      columns_.back().potential.resize(graph_->number_of_faces());
     }
+    Column* const filled = &columns_.back() + 1 - width;
+    for_stretches([&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index l = 0; l < width; ++l)
+        for (std::size_t f = begin; f < end; ++f) filled[l].potential[f] = result(static_cast<Eigen::Index>(f), l);
+    });
   }
   base_conductances_.resize(count, count);
   for (Eigen::Index r = 0; r < count; ++r)
@@ -505,18 +527,24 @@ bool Graph_walk<Solver>::add_column(Index s) {
   std::vector<double> h = source_function(s);
   if (h.empty()) return false;
   double error = 4 * epsilon * h[s];
-  for (const Column& column : columns_) {
-    const double share = h[column.face];
-    if (share == 0) continue;
-    error += share * column.error;
-    for (std::size_t f = 0; f < h.size(); ++f) h[f] -= share * column.potential[f];
+  const auto n = static_cast<Eigen::Index>(columns_.size());
+  Eigen::VectorXd reaches(n);  // the present seeds; the column of one is 0 at the others
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    reaches[c] = h[column.face];
+    error += reaches[c] * column.error;
   }
+  for_stretches([&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index c = 0; c < n; ++c) {
+      if (reaches[c] == 0) continue;
+      const double* potential = columns_[static_cast<std::size_t>(c)].potential.data();
+      for (std::size_t f = begin; f < end; ++f) h[f] -= reaches[c] * potential[f];
+    }
+  });
   const double resistance = h[s];  // between s and the seeds
   if (!(resistance > 0 && error < accepted_error * resistance)) return false;
   error /= resistance;
-  for (double& value : h) value = std::clamp(value / resistance, 0., 1.);
 
-  const auto n = static_cast<Eigen::Index>(columns_.size());
   Eigen::VectorXd share(n), share_error(n);  // what walks from s meet first
   for (Eigen::Index c = 0; c < n; ++c) {
     Column& column = columns_[static_cast<std::size_t>(c)];
@@ -525,13 +553,13 @@ bool Graph_walk<Solver>::add_column(Index s) {
     h[column.face] = 0;
     column.error += share[c] * error;
   }
-  for (std::size_t begin = 0; begin < h.size(); begin += chunk) {
-    const std::size_t end = std::min(begin + chunk, h.size());
+  for_stretches([&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) h[f] = std::clamp(h[f] / resistance, 0., 1.);
     for (Eigen::Index c = 0; c < n; ++c) {
       double* potential = columns_[static_cast<std::size_t>(c)].potential.data();
       for (std::size_t f = begin; f < end; ++f) potential[f] = std::max(0., potential[f] - share[c] * h[f]);
     }
-  }
+  });
   for (Column& column : columns_) column.potential[s] = 0;
   h[s] = 1;
   columns_.push_back({s, std::move(h), error});
@@ -566,9 +594,15 @@ bool Graph_walk<Solver>::remove_column(std::size_t place) {
     if (share[i] == 0) continue;
     columns_[c].error += share[i] * leaving.error + share_error[i];
     if (!(columns_[c].error < accepted_error)) return false;
-    auto& potential = columns_[c].potential;
-    for (std::size_t f = 0; f < potential.size(); ++f) potential[f] += share[i] * leaving.potential[f];
   }
+  for_stretches([&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const double part = share[static_cast<Eigen::Index>(c)];
+      if (part == 0) continue;
+      double* potential = columns_[c].potential.data();
+      for (std::size_t f = begin; f < end; ++f) potential[f] += part * leaving.potential[f];
+    }
+  });
   return true;
 }
 
@@ -590,14 +624,16 @@ void Graph_walk<Solver>::label_directly() {
       if (const std::size_t rank = rank_of_seed(base_[r]); rank >= first && rank < first + width)
         boundary(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(rank - first)) = 1;
     solver_.potentials(boundary, potentials);
-    for (std::size_t f = 0; f < rank_.size(); ++f) {
-      const double* row = potentials.data() + f * width;
-      for (std::size_t l = 0; l < width; ++l)
-        if (row[l] > largest_[f]) {
-          largest_[f] = row[l];
-          rank_[f] = static_cast<Index>(first + l);
-        }
-    }
+    for_stretches([&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        const double* row = potentials.data() + f * width;
+        for (std::size_t l = 0; l < width; ++l)
+          if (row[l] > largest_[f]) {
+            largest_[f] = row[l];
+            rank_[f] = static_cast<Index>(first + l);
+          }
+      }
+    });
     progress_(0.7 + 0.3 * static_cast<double>(first + width) / static_cast<double>(number_of_labels_));
   }
 }
@@ -609,9 +645,10 @@ bool Graph_walk<Solver>::label_from_columns() {
   const std::vector<char> seeded = seeded_components();
   for (const Column& column : columns_) columns_of[rank_of_seed(column.face)].push_back(column.potential.data());
   const Instruction_set instructions = best_instruction_set();
-  std::array<double, chunk> sum, total, best;  // stays in the cache
-  for (std::size_t begin = 0; begin < rank_.size(); begin += chunk) {
-    const std::size_t count = std::min(chunk, rank_.size() - begin);
+  std::atomic<bool> sums_are_right = true;
+  for_stretches([&](std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    std::array<double, chunk> sum, total, best;  // stays in the cache
     std::fill_n(&largest_[begin], count, -1.);
     total.fill(0);
     for (std::size_t l = 0; l < number_of_labels_; ++l) {
@@ -627,11 +664,11 @@ bool Graph_walk<Solver>::label_from_columns() {
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (!seeded[components_.of[begin + i]]) continue;
-      if (!(std::abs(total[i] - 1) < 10 * accepted_error)) return false;
+      if (!(std::abs(total[i] - 1) < 10 * accepted_error)) sums_are_right = false;
       rank_[begin + i] = static_cast<Index>(best[i]);
     }
-  }
-  return true;
+  });
+  return sums_are_right;
 }
 
 template <class Solver>
@@ -711,12 +748,14 @@ void Graph_walk<Solver>::settle_islands(const std::vector<char>& is_connected) {
 }
 
 /// The labels of a walk with the given seeds, for use once. Seed faces are all different.
+/// \param analysed a solver that has analysed the graph; without it that is done here
 template <class Solver = Star_mesh_elimination>
 std::vector<std::size_t> walk_labels(const Dual_graph& graph, std::vector<double> conductances,
                                      const std::vector<Dual_graph::Index>& seed_faces,
                                      const std::vector<std::size_t>& seed_labels, const Progress& progress = {},
-                                     Walk_report* report = nullptr) {
+                                     Walk_report* report = nullptr, std::optional<Solver> analysed = std::nullopt) {
   Graph_walk<Solver> walk(graph, std::move(conductances), Solver(), progress);
+  if (analysed) walk.use_analysed(std::move(*analysed));
   for (std::size_t s = 0; s < seed_faces.size(); ++s) walk.add_seed(seed_faces[s], seed_labels[s]);
   std::vector<std::size_t> labels = walk.labels();
   if (report) *report = walk.report();
