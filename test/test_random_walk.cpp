@@ -156,6 +156,34 @@ TEST(RandomWalk, DoesNotDependOnScalePlaceRotationOrOrderOfFaces) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shuffled[i], expected[order[i]]);
 }
 
+TEST(DualGraph, RenumberedIsTheSameGraphWithNeighboursClose) {
+  const meshes::Shape sphere = meshes::sphere(4);
+  const auto order = meshes::random_order(sphere.faces.size());
+  const auto mesh = meshes::surface_mesh(meshes::with_faces_in_order(sphere, order));
+  const Mesh_dual_graph<meshes::Surface_mesh> before(mesh);
+  Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
+  const std::vector<Dual_graph::Index> former_edge = graph.renumber_along_surface();
+
+  ASSERT_EQ(graph.number_of_faces(), before.number_of_faces());
+  ASSERT_EQ(graph.number_of_edges(), before.number_of_edges());
+  for (Dual_graph::Index f = 0; f < graph.number_of_faces(); ++f) EXPECT_EQ(graph.index(graph.face(f)), f);
+  std::set<meshes::Surface_mesh::Edge_index> edges;
+  double distance = 0, distance_before = 0;
+  for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
+    EXPECT_EQ(graph.edge(e), before.edge(former_edge[e]));
+    edges.insert(graph.edge(e));
+    const auto h = halfedge(graph.edge(e), mesh);
+    const auto [f, g] = graph.faces_of(e);
+    EXPECT_EQ(graph.face(f), face(h, mesh));
+    EXPECT_EQ(graph.face(g), face(opposite(h, mesh), mesh));
+    distance = std::max(distance, std::abs(double(f) - double(g)));
+    const auto [i, j] = before.faces_of(e);
+    distance_before = std::max(distance_before, std::abs(double(i) - double(j)));
+  }
+  EXPECT_EQ(edges.size(), graph.number_of_edges());
+  EXPECT_LT(distance, distance_before / 10);
+}
+
 TEST(RandomWalk, SegmentsAPlaneByDistanceWhetherRotatedOrNot) {
   for (const bool rotated : {false, true}) {
     const meshes::Shape plane = meshes::plane(11);

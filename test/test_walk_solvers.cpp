@@ -6,9 +6,14 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
 #include <gtest/gtest.h>
 #include "networks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -17,6 +22,7 @@ using namespace networks;
 using RW_segmentation::Eigen_walk_solver;
 using RW_segmentation::Potentials;
 using RW_segmentation::Star_mesh_elimination;
+namespace internal = RW_segmentation::internal;
 
 namespace {
 
@@ -114,6 +120,55 @@ TEST(StarMeshElimination, AgreesWithItselfOnEveryInstructionSet) {
   const auto portable = run([](const Front& front) { eliminate(front, Instruction_set::portable); });
   const auto best = run([](const Front& front) { eliminate(front, best_instruction_set()); });
   for (std::size_t i = 0; i < portable.size(); ++i) ASSERT_NEAR(portable[i], best[i], 1e-13 * portable[i]) << i;
+}
+
+/// A graph whose elimination is cut into many subtrees.
+static Network network_of_many_subtrees() {
+  std::mt19937 random(6);
+  Network network{triangulated_torus(120), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 3, random);
+  return network;
+}
+
+TEST(StarMeshElimination, BalancesCurrentsAtEachFaceWhereSubtreesAreEliminatedApart) {
+  const Network network = network_of_many_subtrees();
+  const internal::Elimination_plan plan(network.graph);
+  ASSERT_GT(plan.subtrees.size(), 4u);
+  ASSERT_GT(plan.top.size(), 4u);
+  std::mt19937 random(7);
+  std::vector<Index> seeds = random_faces(network.graph, 6, random);
+  if (std::find(seeds.begin(), seeds.end(), plan.face.back()) == seeds.end()) seeds.push_back(plan.face.back());
+  Star_mesh_elimination solver;
+  const Potentials x = potentials(solver, network, seeds);
+  for (Index f = 0; f < network.graph.number_of_faces(); ++f) {
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(x.cols());
+    double total = 0;
+    for (const auto& [g, e] : network.graph.neighbours(f)) {
+      sum += network.conductances[e] * x.row(g);
+      total += network.conductances[e];
+    }
+    const auto seed = std::find(seeds.begin(), seeds.end(), f);
+    if (seed != seeds.end()) sum = total * Eigen::RowVectorXd::Unit(x.cols(), seed - seeds.begin());
+    ASSERT_LE((sum / total - x.row(f)).cwiseAbs().maxCoeff(), 1e-12) << f;
+    ASSERT_NEAR(x.row(f).sum(), 1, 1e-12) << f;
+  }
+}
+
+TEST(StarMeshElimination, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
+#ifdef CGAL_LINKED_WITH_TBB
+  const Network network = network_of_many_subtrees();
+  std::mt19937 random(8);
+  const std::vector<Index> seeds = random_faces(network.graph, 10, random);
+  const auto potentials_with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Star_mesh_elimination solver;
+    return potentials(solver, network, seeds);
+  };
+  const Potentials expected = potentials_with(1);
+  for (const std::size_t threads : {2, 4}) EXPECT_TRUE((potentials_with(threads).array() == expected.array()).all());
+#else
+  GTEST_SKIP() << "TBB is not linked";
+#endif
 }
 
 TEST(StarMeshElimination, FindsFacesThatNoSeedReaches) {
