@@ -164,6 +164,27 @@ TEST(Smoothed_face_normals, ComeFromASolverThatConvergesToTheDenseSolution) {
   }
 }
 
+TEST(Smoothed_face_normals, ComeFromLevelsThatHalveEvenRoundAFaceWithManyNeighbours) {
+  constexpr std::size_t sides = 3000;
+  meshes::Shape cone;
+  cone.faces.emplace_back();
+  for (std::size_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::acos(-1.) * static_cast<double>(i) / sides;
+    cone.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    cone.faces.front().push_back(sides - 1 - i);
+    cone.faces.push_back({i, (i + 1) % sides, sides});
+  }
+  cone.points.emplace_back(0, 0, 1);
+  for (const meshes::Shape& shape : {cone, meshes::sphere(4)}) {
+    const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
+    const Mesh_dual_graph graph(mesh);
+    const auto geometry = RW_segmentation::internal::face_geometry(mesh, graph, CGAL::parameters::default_values());
+    const RW_segmentation::internal::Face_diffusion diffusion(graph, geometry, 100 * geometry.total_area);
+    EXPECT_LE(static_cast<double>(diffusion.number_of_levels()), 1 + std::log2(graph.number_of_faces()));
+    EXPECT_GE(diffusion.number_of_levels(), 3u);
+  }
+}
+
 TEST(Smoothed_face_normals, OfAPlaneStayAsTheyAre) {
   const meshes::Shape plane = meshes::transformed(meshes::plane(8), meshes::some_rotation());
   const Eigen::Vector3d up = meshes::some_rotation().linear() * Eigen::Vector3d::UnitZ();

@@ -102,7 +102,7 @@ struct Segmentation_report {
   /// A stage of the computation.
   struct Stage {
     std::string name;  ///< what is done
-    double seconds;    ///< how long it took
+    double seconds;    ///< how long it took, or was waited for where others were done at the same time
   };
   std::vector<Stage> stages;  ///< in the order in which they happen
 };
@@ -190,32 +190,42 @@ inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, Star_mes
   return labels;
 }
 
-/// Merges fragments as `Automatic_segmentation` says.
+/// The thickness that `Automatic_segmentation` merges by, in the order of the faces; empty if it does not count.
 template <class FaceListGraph, class NamedParameters>
-Merge_tree merge_by_policy(const Automatic_segmentation& policy, const FaceListGraph& mesh,
-                           const Mesh_dual_graph<FaceListGraph>& graph,
-                           const Unit_box_points<FaceListGraph, NamedParameters>& point, const Face_geometry& geometry,
-                           const std::vector<double>& difference, const std::vector<std::size_t>& fragment_of_face,
-                           std::size_t fragments, const Progress& progress, Stage_clock& clock) {
-  std::vector<double> thickness;
-  if (policy.thickness.samples > 0) {
-    const Triangle_tree tree(fan_triangles(mesh, graph, point));
-    thickness = thickness_of_faces(geometry, tree, policy.thickness, progress.part(0, 0.9));
-  }
-  clock.note("thickness");
+std::vector<double> thickness_for(const Automatic_segmentation& policy, const FaceListGraph& mesh,
+                                  const Mesh_dual_graph<FaceListGraph>& graph,
+                                  const Unit_box_points<FaceListGraph, NamedParameters>& point,
+                                  const Face_geometry& geometry) {
+  if (policy.thickness.samples == 0) return {};
+  const Triangle_tree tree(fan_triangles(mesh, graph, point));
+  return thickness_of_faces(geometry, tree, policy.thickness, {});
+}
+
+/// `Paper_segmentation` does not ask for it.
+template <class FaceListGraph, class NamedParameters>
+std::vector<double> thickness_for(const Paper_segmentation&, const FaceListGraph&,
+                                  const Mesh_dual_graph<FaceListGraph>&,
+                                  const Unit_box_points<FaceListGraph, NamedParameters>&, const Face_geometry&) {
+  return {};
+}
+
+/// Merges fragments as `Automatic_segmentation` says.
+inline Merge_tree merge_by_policy(const Automatic_segmentation&, const Dual_graph& graph, const Face_geometry& geometry,
+                                  const std::vector<double>& thickness, const std::vector<double>& difference,
+                                  const std::vector<std::size_t>& fragment_of_face, std::size_t fragments,
+                                  const Progress& progress) {
   const Size_aware_formula cost;
   const auto regions = size_aware_regions(geometry, thickness);
   return merge_fragments(graph, fragment_of_face,
                          join_faces(fragment_of_face, fragments, cost, [&](std::size_t f) { return regions[f]; }),
-                         geometry.edge_length, difference, region_unit(geometry), cost, progress.part(0.9, 1));
+                         geometry.edge_length, difference, region_unit(geometry), cost, progress);
 }
 
 /// Merges fragments as `Paper_segmentation` says.
-template <class FaceListGraph, class NamedParameters>
-Merge_tree merge_by_policy(const Paper_segmentation&, const FaceListGraph&, const Mesh_dual_graph<FaceListGraph>& graph,
-                           const Unit_box_points<FaceListGraph, NamedParameters>&, const Face_geometry& geometry,
-                           const std::vector<double>& difference, const std::vector<std::size_t>& fragment_of_face,
-                           std::size_t fragments, const Progress& progress, Stage_clock&) {
+inline Merge_tree merge_by_policy(const Paper_segmentation&, const Dual_graph& graph, const Face_geometry& geometry,
+                                  const std::vector<double>&, const std::vector<double>& difference,
+                                  const std::vector<std::size_t>& fragment_of_face, std::size_t fragments,
+                                  const Progress& progress) {
   return merge_fragments(graph, fragment_of_face, std::vector<Relative_boundary_cost::Region>(fragments),
                          geometry.edge_length, difference, region_unit(geometry), Relative_boundary_cost(), progress);
 }
@@ -266,20 +276,28 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
     seeds = internal::fragment_seeds(graph, geometry, normals, given, component, policy, progress.part(0.3, 0.4));
     clock.note("seeds");
   };
-  // The order of elimination depends on none of these.
+  // The order of elimination depends on none of these, nor thickness on the walk. Of what is done at the same time, the
+  // stages tell how long the rest of it was waited for.
   Star_mesh_elimination solver;
   internal::at_the_same_time<CGAL::Parallel_if_available_tag>([&] { solver.analyze(graph); }, prepare_walk);
   clock.note("ordering");
-  std::vector<std::size_t> fragment_of_face = internal::walk_fragments(graph, std::move(solver), conductances, seeds,
-                                                                       component, progress.part(0.4, 0.8), report);
-  clock.note("walk");
+  std::vector<double> thickness;
+  std::vector<std::size_t> fragment_of_face;
+  const auto walk = [&] {
+    fragment_of_face = internal::walk_fragments(graph, std::move(solver), conductances, seeds, component,
+                                                progress.part(0.4, 0.9), report);
+    clock.note("walk");
+  };
+  internal::at_the_same_time<CGAL::Parallel_if_available_tag>(
+      [&] { thickness = internal::thickness_for(policy, mesh, graph, point, geometry); }, walk);
+  clock.note("thickness");
 
   report.components = component.count;
   report.seeds = seeds.size();
   report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
   report.degenerate_faces = geometry.degenerate_faces;
-  Merge_tree tree = internal::merge_by_policy(policy, mesh, graph, point, geometry, difference, fragment_of_face,
-                                              report.fragments, progress.part(0.8, 1), clock);
+  Merge_tree tree = internal::merge_by_policy(policy, graph, geometry, thickness, difference, fragment_of_face,
+                                              report.fragments, progress.part(0.9, 1));
   clock.note("merging");
   progress(1);
   return {{std::move(tree), graph.face_descriptors(), std::move(fragment_of_face)}, std::move(report)};
@@ -298,7 +316,7 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
 /// chance or on the number of threads, and not on the mesh's position and size.
 ///
 /// Complexity: that of the walk, O(m^1.3) time and O(m log m) memory for m faces in practice; see
-/// `Star_mesh_elimination`.
+/// `Star_mesh_elimination`. Where TBB is linked (`CGAL_LINKED_WITH_TBB`), its threads share the work.
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 /// \tparam SegmentIdMap a writable property map from `face_descriptor` to `std::size_t`

@@ -35,6 +35,9 @@ class Face_diffusion {
     while (is_diffusive(levels_.back())) levels_.push_back(coarser_level(levels_.back()));
   }
 
+  /// Of the faces and of aggregates of them. Each level has half as many nodes as the one before or less.
+  std::size_t number_of_levels() const { return levels_.size(); }
+
   /// Improves `x` until the root of the mean square over the faces of its error, relative to the length of each vector,
   /// is below `tolerance`.
   /// \throws Cancelled
