@@ -155,7 +155,8 @@ std::vector<Measured_solver> all_solvers() {
 }
 
 struct Arguments {
-  std::vector<std::string> meshes, sizes, solvers;
+  std::vector<std::string> meshes, solvers;
+  std::vector<std::string> sizes = {"10k", "40k", "160k", "640k", "2500k"};
   std::vector<std::size_t> seeds = {6, 12, 24, 48};
   std::size_t repeats = 3;
 };
@@ -203,27 +204,6 @@ void measure(const std::string& size, Mesh& mesh, double read_ms, const Argument
   }
 }
 
-double milliseconds_to_read(const std::string& path) {
-  const Outcome outcome = in_own_process([&] {
-    const Stopwatch watch;
-    read_mesh(path);
-    return std::vector<double>{watch.milliseconds()};
-  });
-  if (!outcome.failure.empty()) throw std::runtime_error(outcome.failure);
-  return outcome.numbers.front();
-}
-
-/// The time to read a mesh that was made, from an OFF file in a temporary folder.
-double milliseconds_to_read(const Mesh& mesh) {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("benchmark_walk_" + std::to_string(getpid()) + "_mesh.off");
-  if (!CGAL::IO::write_polygon_mesh(path.string(), mesh, CGAL::parameters::stream_precision(17)))
-    throw std::runtime_error(path.string() + ": cannot be written");
-  const double time = milliseconds_to_read(path.string());
-  std::filesystem::remove(path);
-  return time;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -240,7 +220,7 @@ int main(int argc, char** argv) try {
   app.add_option("--sizes", arguments.sizes, "Of the meshes to make")
       ->delimiter(',')
       ->check(CLI::IsMember(sizes()))
-      ->default_val(sizes())
+      ->capture_default_str()
       ->excludes("MESH");
   app.add_option("--solvers", arguments.solvers, "All by default")->delimiter(',')->check(CLI::IsMember(solver_names));
   app.add_option("--seeds", arguments.seeds, "Numbers of seeds")->delimiter(',')->capture_default_str();

@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -49,19 +50,33 @@ inline std::string data_mesh([[maybe_unused]] const std::string& name) {
 #endif
 }
 
+/// How a mesh of a given size is made of a hand of 2390 triangles: subdivisions in three, then Loop subdivisions in four.
+struct Size {
+  std::string name;
+  unsigned int in_three, in_four;
+};
+
+inline const std::vector<Size>& all_sizes() {
+  static const std::vector<Size> all = {{"10k", 0, 1},   {"40k", 0, 2},   {"160k", 0, 3},  {"640k", 0, 4},
+                                        {"1000k", 3, 2}, {"2500k", 0, 5}, {"10000k", 0, 6}};
+  return all;
+}
+
 /// The names of the sizes in the order of growing meshes.
-inline const std::vector<std::string>& sizes() {
-  static const std::vector<std::string> names = {"10k", "40k", "160k", "640k", "2500k"};
+inline std::vector<std::string> sizes() {
+  std::vector<std::string> names;
+  for (const Size& size : all_sizes()) names.push_back(size.name);
   return names;
 }
 
-/// A hand of 2390 triangles after one to five Loop subdivisions: 9 560, 38 240, 152 960, 611 840 or 2 447 360 faces.
-inline Mesh mesh_of_size(const std::string& size) {
-  const auto name = std::find(sizes().begin(), sizes().end(), size);
-  if (name == sizes().end()) throw std::invalid_argument("no size is called " + size);
-  const auto subdivisions = static_cast<unsigned int>(name - sizes().begin() + 1);
+/// 9 560, 38 240, 152 960, 611 840, 1 032 480, 2 447 360 or 9 789 440 faces.
+inline Mesh mesh_of_size(const std::string& name) {
+  const auto size =
+      std::find_if(all_sizes().begin(), all_sizes().end(), [&](const Size& known) { return known.name == name; });
+  if (size == all_sizes().end()) throw std::invalid_argument("no size is called " + name);
   Mesh mesh = read_mesh(data_mesh("hand.off"));
-  CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(subdivisions));
+  CGAL::Subdivision_method_3::Sqrt3_subdivision(mesh, CGAL::parameters::number_of_iterations(size->in_three));
+  CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(size->in_four));
   return mesh;
 }
 
@@ -160,6 +175,27 @@ Outcome in_own_process(const Measure& measure) {
       outcome.numbers.push_back(std::stod(line));
   }
   return outcome;
+}
+
+/// The time to read a mesh from a file, in a process of its own.
+inline double milliseconds_to_read(const std::string& path) {
+  const Outcome outcome = in_own_process([&] {
+    const Stopwatch watch;
+    read_mesh(path);
+    return std::vector<double>{watch.milliseconds()};
+  });
+  if (!outcome.failure.empty()) throw std::runtime_error(outcome.failure);
+  return outcome.numbers.front();
+}
+
+/// The time to read a mesh that was made, from an OFF file in a temporary folder.
+inline double milliseconds_to_read(const Mesh& mesh) {
+  const auto path = std::filesystem::temp_directory_path() / ("benchmark_" + std::to_string(getpid()) + "_mesh.off");
+  if (!CGAL::IO::write_polygon_mesh(path.string(), mesh, CGAL::parameters::stream_precision(17)))
+    throw std::runtime_error(path.string() + ": cannot be written");
+  const double time = milliseconds_to_read(path.string());
+  std::filesystem::remove(path);
+  return time;
 }
 
 // ---- Results ----
