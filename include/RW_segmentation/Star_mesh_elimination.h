@@ -139,7 +139,22 @@ class Star_mesh_elimination {
     Index supernode;
     const double* numbers;
   };
-  struct Workspace;
+
+  /// Scratch memory of one thread.
+  struct Workspace {
+    explicit Workspace(const internal::Elimination_plan& plan)
+        : panel(plan.largest_panel),
+          remainder(plan.largest_row_count * plan.largest_row_count),
+          scaled(plan.largest_front * internal::front_block),
+          packed(internal::kernel::packed_size(plan.largest_front)),
+          ground(plan.largest_front),
+          stack(plan.stack_size),
+          row_in_front(plan.face.size()),
+          child_rows(plan.largest_row_count) {}
+
+    std::vector<double> panel, remainder, scaled, packed, ground, stack;
+    std::vector<Index> row_in_front, child_rows;  // by position; of a child's rows
+  };
 
   std::vector<double> eliminate_subtree(const internal::Elimination_plan::Subtree& subtree,
                                         const std::vector<double>& conductances, Workspace& workspace);
@@ -164,22 +179,6 @@ class Star_mesh_elimination {
 };
 
 // -------------------------------------------------------------------------------------------------------------------
-
-/// Scratch memory of one thread.
-struct Star_mesh_elimination::Workspace {
-  explicit Workspace(const internal::Elimination_plan& plan)
-      : panel(plan.largest_panel),
-        remainder(plan.largest_row_count * plan.largest_row_count),
-        scaled(plan.largest_front * internal::front_block),
-        packed(internal::kernel::packed_size(plan.largest_front)),
-        ground(plan.largest_front),
-        stack(plan.stack_size),
-        row_in_front(plan.face.size()),
-        child_rows(plan.largest_row_count) {}
-
-  std::vector<double> panel, remainder, scaled, packed, ground, stack;
-  std::vector<Index> row_in_front, child_rows;  // by position; of a child's rows
-};
 
 inline void Star_mesh_elimination::factorize(const std::vector<double>& conductances,
                                              const std::vector<Index>& absorbing_faces, const Progress& progress) {
