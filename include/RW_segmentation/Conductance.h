@@ -5,6 +5,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Edge_values.h>
 #include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/property_map.h>
@@ -39,8 +40,10 @@ inline std::vector<double> conductances(const std::vector<double>& edge_length, 
 
   const double limit = std::min(cap, largest_exponent);
   std::vector<double> w(differences.size());
-  for (std::size_t e = 0; e < w.size(); ++e)
-    w[e] = std::max(edge_length[e], shortest) * std::exp(-std::min(differences[e] / sigma, limit));
+  parallel_stretches(w.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e)
+      w[e] = std::max(edge_length[e], shortest) * std::exp(-std::min(differences[e] / sigma, limit));
+  });
   return w;
 }
 

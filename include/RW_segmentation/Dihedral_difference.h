@@ -5,6 +5,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Edge_values.h>
 #include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/read_normals.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -38,17 +40,18 @@ inline std::vector<double> dihedral_difference(const Dual_graph& graph, const Fa
   constexpr double folded = 4 - 1e-12;
   const std::size_t edges = graph.number_of_edges();
   std::vector<double> d(edges);
-  double sum = 0;
-  for (std::size_t e = 0; e < edges; ++e) {
-    const auto [i, j] = graph.faces_of(static_cast<Dual_graph::Index>(e));
-    const Eigen::Vector3d turn = normals[j] - normals[i];
-    if (normals[i].isZero(0) || normals[j].isZero(0)) continue;
-    const bool concave = turn.dot(geometry.centroid[j] - geometry.centroid[i]) < 0 && turn.squaredNorm() < folded;
-    const double eta = concave ? 1 : convex_weight;
-    // |Ni - Nj|^2 / 2, because 1 - Ni.Nj would lose all digits on flat edges.
-    d[e] = eta * (measure == Dihedral_measure::angle ? turn.norm() : turn.squaredNorm() / 2);
-    sum += d[e];
-  }
+  parallel_stretches(edges, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto [i, j] = graph.faces_of(static_cast<Dual_graph::Index>(e));
+      const Eigen::Vector3d turn = normals[j] - normals[i];
+      if (normals[i].isZero(0) || normals[j].isZero(0)) continue;
+      const bool concave = turn.dot(geometry.centroid[j] - geometry.centroid[i]) < 0 && turn.squaredNorm() < folded;
+      const double eta = concave ? 1 : convex_weight;
+      // |Ni - Nj|^2 / 2, because 1 - Ni.Nj would lose all digits on flat edges.
+      d[e] = eta * (measure == Dihedral_measure::angle ? turn.norm() : turn.squaredNorm() / 2);
+    }
+  });
+  const double sum = std::accumulate(d.begin(), d.end(), 0.);
 
   // Below these means the mesh is flat, and its angles are the rounding of coordinates.
   const double flat_angle = std::max(1e-6, 2 * geometry.rounding / std::max(geometry.mean_edge_length(), 1e-12));

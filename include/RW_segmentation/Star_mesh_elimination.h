@@ -117,7 +117,7 @@ class Star_mesh_elimination {
   void backward(const std::vector<char>& marked, const std::vector<double>& boundary, std::vector<double>& x) const;
 
   template <std::size_t labels>
-  void solve_columns(const Potentials& boundary_values, Eigen::Index first, Eigen::Index width, std::vector<double>& x,
+  void solve_columns(const Potentials& boundary_values, Eigen::Index first, Eigen::Index width,
                      Potentials& potentials) const;
 
   std::size_t position_of_source(Index face) const {
@@ -319,24 +319,25 @@ inline void Star_mesh_elimination::potentials(const Potentials& boundary_values,
     throw std::invalid_argument("Star_mesh_elimination: boundary values for " + std::to_string(boundary_values.rows()) +
                                 " faces, factorised for " + std::to_string(absorbing_faces_.size()));
   potentials.resize(static_cast<Eigen::Index>(plan_.face.size()), boundary_values.cols());
-  std::vector<double> x;
-  for (Eigen::Index first = 0; first < boundary_values.cols(); first += block) {
+  const auto blocks = static_cast<std::size_t>((boundary_values.cols() + block - 1) / block);
+  internal::parallel_tasks<Concurrency_tag>(blocks, [&](std::size_t task) {
+    const Eigen::Index first = static_cast<Eigen::Index>(task) * block;
     const Eigen::Index width = std::min(block, boundary_values.cols() - first);
     if (width == 1)
-      solve_columns<1>(boundary_values, first, width, x, potentials);
+      solve_columns<1>(boundary_values, first, width, potentials);
     else
-      solve_columns<block>(boundary_values, first, width, x, potentials);
-  }
+      solve_columns<block>(boundary_values, first, width, potentials);
+  });
 }
 
 template <std::size_t labels>
 void Star_mesh_elimination::solve_columns(const Potentials& boundary_values, Eigen::Index first, Eigen::Index width,
-                                          std::vector<double>& x, Potentials& potentials) const {
+                                          Potentials& potentials) const {
   std::vector<double> boundary(absorbing_faces_.size() * labels, 0.);
   for (Eigen::Index r = 0; r < boundary_values.rows(); ++r)
     for (Eigen::Index l = 0; l < width; ++l)
       boundary[static_cast<std::size_t>(r) * labels + static_cast<std::size_t>(l)] = boundary_values(r, first + l);
-  x.assign(plan_.face.size() * labels, 0.);
+  std::vector<double> x(plan_.face.size() * labels, 0.);
   forward<labels>(carries_current_, boundary, x);
   backward<labels>({}, boundary, x);
   constexpr std::size_t faces_at_once = 16384;

@@ -3,6 +3,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Descriptor_index.h>
+#include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -163,12 +164,13 @@ void Unit_box_points<FaceListGraph, NamedParameters>::smooth(const FaceListGraph
 template <class FaceListGraph, class NamedParameters>
 std::vector<double> edge_lengths(const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
                                  const Unit_box_points<FaceListGraph, NamedParameters>& point) {
-  std::vector<double> lengths;
-  lengths.reserve(graph.number_of_edges());
-  for (const auto e : graph.edge_descriptors()) {
-    const auto h = halfedge(e, mesh);
-    lengths.push_back((point(target(h, mesh)) - point(source(h, mesh))).norm());
-  }
+  std::vector<double> lengths(graph.number_of_edges());
+  parallel_stretches(lengths.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto h = halfedge(graph.edge_descriptors()[e], mesh);
+      lengths[e] = (point(target(h, mesh)) - point(source(h, mesh))).norm();
+    }
+  });
   return lengths;
 }
 
@@ -182,11 +184,11 @@ Face_geometry face_geometry(const FaceListGraph& mesh, const Mesh_dual_graph<Fac
   geometry.rounding = point.rounding();
 
   const std::size_t faces = graph.number_of_faces();
-  geometry.centroid.reserve(faces);
-  geometry.normal.reserve(faces);
-  geometry.area.reserve(faces);
-  for (const auto f : graph.face_descriptors()) {
-    const auto first = halfedge(f, mesh);
+  geometry.centroid.resize(faces);
+  geometry.normal.resize(faces);
+  geometry.area.resize(faces);
+  const auto measure = [&](std::size_t f) {
+    const auto first = halfedge(graph.face_descriptors()[f], mesh);
     const Eigen::Vector3d apex = point(target(first, mesh));
     Eigen::Vector3d sum = Eigen::Vector3d::Zero(), area_vector = Eigen::Vector3d::Zero();
     Eigen::Vector3d previous = sum;  // relative to the apex
@@ -201,11 +203,16 @@ Face_geometry face_geometry(const FaceListGraph& mesh, const Mesh_dual_graph<Fac
     const double area = area_vector.norm();
     // A face that is no higher than its corners are exact has no direction.
     const bool degenerate = !(area > 4 * geometry.rounding * extent);
-    geometry.centroid.push_back(apex + sum / corners);
-    geometry.normal.push_back(degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / area));
-    geometry.area.push_back(area);
-    geometry.total_area += area;
-    geometry.degenerate_faces += degenerate;
+    geometry.centroid[f] = apex + sum / corners;
+    geometry.normal[f] = degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / area);
+    geometry.area[f] = area;
+  };
+  parallel_stretches(faces, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) measure(f);
+  });
+  for (std::size_t f = 0; f < faces; ++f) {
+    geometry.total_area += geometry.area[f];
+    geometry.degenerate_faces += geometry.normal[f].isZero(0);
   }
   geometry.edge_length = edge_lengths(mesh, graph, point);
   return geometry;

@@ -246,7 +246,9 @@ class Graph_walk {
     for (const double c : conductances_) largest = std::max(largest, c);
     if (!(largest > 0)) return;
     const int exponent = std::ilogb(largest);
-    for (double& c : conductances_) c = std::scalbn(c, -exponent);
+    parallel_stretches(conductances_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) conductances_[e] = std::scalbn(conductances_[e], -exponent);
+    });
   }
 
   std::vector<char> seeded_components() const {
@@ -289,10 +291,7 @@ class Graph_walk {
   /// Calls `work(begin, end)` for stretches of faces, for several at the same time where there are threads.
   template <class Work>
   void for_stretches(const Work& work) const {
-    const std::size_t faces = graph_->number_of_faces();
-    parallel_tasks<CGAL::Parallel_if_available_tag>((faces + chunk - 1) / chunk, [&](std::size_t task) {
-      work(task * chunk, std::min((task + 1) * chunk, faces));
-    });
+    parallel_stretches(graph_->number_of_faces(), work, chunk);
   }
 
   bool has_column(Index face) const {
@@ -614,7 +613,7 @@ void Graph_walk<Solver>::label_directly() {
   if (!same_seeds) factorise();
   has_columns_ = false;
   columns_.clear();
-  constexpr std::size_t block = 8;
+  constexpr std::size_t block = 16;
   Potentials boundary, potentials;
   std::fill(largest_.begin(), largest_.end(), -1.);
   for (std::size_t first = 0; first < number_of_labels_; first += block) {

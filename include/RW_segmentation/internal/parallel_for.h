@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 #endif
 
@@ -66,6 +67,24 @@ void parallel_tasks(std::size_t number, const Task& task) {
   } else {
     for (std::size_t i = 0; i < number; ++i) task(i);
   }
+}
+
+/// Calls `work(begin, end)` for stretches of 0 .. `number` - 1, of the same length each but the last; for several at the
+/// same time where TBB is linked. The stretches do not depend on the number of threads.
+template <class Work>
+void parallel_stretches(std::size_t number, const Work& work, std::size_t length = 16384) {
+  const auto task = [&](std::size_t stretch) { work(stretch * length, std::min((stretch + 1) * length, number)); };
+  const std::size_t stretches = (number + length - 1) / length;
+  if (stretches <= 1) {
+    if (stretches == 1) task(0);
+    return;
+  }
+#ifdef CGAL_LINKED_WITH_TBB
+  // The thread that waits for its own stretches must not begin with something long instead.
+  tbb::this_task_arena::isolate([&] { parallel_tasks<CGAL::Parallel_tag>(stretches, task); });
+#else
+  parallel_tasks<CGAL::Sequential_tag>(stretches, task);
+#endif
 }
 
 /// Calls `here()`, from the calling thread, and `in_background()`, at the same time if there are threads.
