@@ -8,11 +8,12 @@
 #include <RW_segmentation/Relative_boundary_cost.h>
 #include <RW_segmentation/Segment_hierarchy.h>
 #include <RW_segmentation/Size_aware_cost.h>
+#include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Face_geometry.h>
-#include <RW_segmentation/internal/Graph_walk.h>
 #include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/walk_fragments.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/smoothed_face_normals.h>
@@ -57,6 +58,7 @@ struct Automatic_segmentation {
   double cap = 20;                   ///< of the conductance
   std::size_t seeds = 40;            ///< for each mesh, and one more for each further connected component
   Farthest_point_sampling sampling;  ///< how the seeds are spread
+  Walk_reduction reduction;          ///< of the walk on large meshes
   Thickness_sampling thickness;      ///< 0 samples: thickness does not count
 
   /// The number of segments to stop at.
@@ -83,6 +85,7 @@ struct Paper_segmentation {
   double cap = 20;                                                ///< of the conductance
   std::size_t seeds = 60;            ///< for each mesh, and one more for each further connected component
   Farthest_point_sampling sampling;  ///< how the seeds are spread
+  Walk_reduction reduction;          ///< of the walk on large meshes
 
   /// The number of segments to stop at.
   std::size_t stop(const Merge_tree& tree) const {
@@ -94,6 +97,7 @@ struct Paper_segmentation {
 struct Segmentation_report {
   std::size_t components = 0;        ///< connected components of the mesh
   std::size_t seeds = 0;             ///< given and automatic ones
+  std::size_t clusters = 0;          ///< that the walk was reduced to; 0 if it ran over the faces
   std::size_t fragments = 0;         ///< before merging
   std::size_t degenerate_faces = 0;  ///< faces without area
   std::size_t island_faces = 0;      ///< faces that the walk left apart from their fragment, moved to a neighbour
@@ -170,26 +174,6 @@ std::vector<Dual_graph::Index> fragment_seeds(const Dual_graph& graph, const Fac
   return seeds;
 }
 
-/// The fragments that walks from the seeds make. A component with a single seed needs no walk.
-inline std::vector<std::size_t> walk_fragments(const Dual_graph& graph, Star_mesh_elimination analysed,
-                                               const std::vector<double>& conductances,
-                                               const std::vector<Dual_graph::Index>& seeds, const Components& component,
-                                               const Progress& progress, Segmentation_report& report) {
-  std::vector<std::size_t> seeds_in(component.count, 0);
-  for (const auto seed : seeds) ++seeds_in[component.of[seed]];
-  std::vector<Dual_graph::Index> walked;
-  for (const auto seed : seeds)
-    if (seeds_in[component.of[seed]] > 1) walked.push_back(seed);
-  if (walked.empty()) return {component.of.begin(), component.of.end()};
-
-  std::vector<std::size_t> labels(walked.size());
-  std::iota(labels.begin(), labels.end(), std::size_t(0));
-  Walk_report walk;
-  labels = walk_labels(graph, conductances, walked, labels, progress, &walk, std::optional(std::move(analysed)));
-  report.island_faces = walk.island_faces;
-  return labels;
-}
-
 /// The thickness that `Automatic_segmentation` merges by, in the order of the faces; empty if it does not count.
 template <class FaceListGraph, class NamedParameters>
 std::vector<double> thickness_for(const Automatic_segmentation& policy, const FaceListGraph& mesh,
@@ -246,6 +230,7 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   if (policy.seeds == 0) throw internal::argument_error("seeds", policy.seeds, "at least 1");
   if (!(policy.ordinary_difference >= 0))
     throw internal::argument_error("ordinary_difference", policy.ordinary_difference, "at least 0");
+  internal::require_reduction_numbers(policy.reduction);
   const Progress progress = internal::progress_of(np);
   Segmentation_report report;
   internal::Stage_clock clock(report.stages);
@@ -258,11 +243,10 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   if (graph.number_of_faces() == 0) return {};
   clock.note("mesh");
 
+  std::vector<Eigen::Vector3d> normals;
   std::vector<double> difference, conductances;
   internal::Components component;
-  std::vector<Dual_graph::Index> seeds;
   const auto prepare_walk = [&] {
-    std::vector<Eigen::Vector3d> normals;
     std::tie(normals, report.has_heavy_noise) =
         internal::smooth_normals_and_vertices(mesh, graph, point, geometry, policy.smoothing, progress.part(0, 0.3));
     clock.note("normals");
@@ -273,19 +257,27 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
     internal::cut_constrained_edges(graph, np, conductances);
     component = internal::components(graph, conductances);
     clock.note("conductances");
-    seeds = internal::fragment_seeds(graph, geometry, normals, given, component, policy, progress.part(0.3, 0.4));
-    clock.note("seeds");
   };
-  // The order of elimination depends on none of these, nor thickness on the walk. Of what is done at the same time, the
-  // stages tell how long the rest of it was waited for.
+  // The order of elimination depends on none of these, nor thickness on seeds and walk. Of what is done at the same
+  // time, the stages tell how long the rest of it was waited for.
+  const bool is_reduced = graph.number_of_faces() > policy.reduction.largest_direct;
   Star_mesh_elimination solver;
-  internal::at_the_same_time<CGAL::Parallel_if_available_tag>([&] { solver.analyze(graph); }, prepare_walk);
+  const auto order = [&] {
+    if (!is_reduced) solver.analyze(graph);
+  };
+  internal::at_the_same_time<CGAL::Parallel_if_available_tag>(order, prepare_walk);
   clock.note("ordering");
   std::vector<double> thickness;
-  std::vector<std::size_t> fragment_of_face;
+  std::vector<Dual_graph::Index> seeds;
+  internal::Fragments fragments;
   const auto walk = [&] {
-    fragment_of_face = internal::walk_fragments(graph, std::move(solver), conductances, seeds, component,
-                                                progress.part(0.4, 0.9), report);
+    seeds = internal::fragment_seeds(graph, geometry, normals, given, component, policy, progress.part(0.3, 0.4));
+    clock.note("seeds");
+    const internal::Walk_network network = {graph, conductances, component};
+    const Progress part = progress.part(0.4, 0.9);
+    fragments = is_reduced ? internal::walk_fragments_over_clusters(network, geometry.edge_length, seeds,
+                                                                    policy.reduction, part)
+                           : internal::walk_fragments(network, std::move(solver), seeds, part);
     clock.note("walk");
   };
   internal::at_the_same_time<CGAL::Parallel_if_available_tag>(
@@ -294,13 +286,15 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
 
   report.components = component.count;
   report.seeds = seeds.size();
-  report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
+  report.clusters = fragments.clusters;
+  report.fragments = *std::max_element(fragments.of_face.begin(), fragments.of_face.end()) + 1;
   report.degenerate_faces = geometry.degenerate_faces;
-  Merge_tree tree = internal::merge_by_policy(policy, graph, geometry, thickness, difference, fragment_of_face,
+  report.island_faces = fragments.island_faces;
+  Merge_tree tree = internal::merge_by_policy(policy, graph, geometry, thickness, difference, fragments.of_face,
                                               report.fragments, progress.part(0.9, 1));
   clock.note("merging");
   progress(1);
-  return {{std::move(tree), graph.face_descriptors(), std::move(fragment_of_face)}, std::move(report)};
+  return {{std::move(tree), graph.face_descriptors(), std::move(fragments.of_face)}, std::move(report)};
 }
 
 /// Segments a mesh by itself: in one call, without seeds of the user, into as many segments as the shape suggests or as

@@ -1,0 +1,211 @@
+#include <RW_segmentation/Walk_reduction.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
+#include "face_labels.h"
+#include "meshes.h"
+#include "networks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+using namespace RW_segmentation;
+using internal::Face_clusters;
+using networks::Index;
+
+namespace {
+
+std::vector<char> all_crossed(const Dual_graph& graph) { return std::vector<char>(graph.number_of_edges(), true); }
+
+std::vector<double> random_conductances(const Dual_graph& graph) {
+  std::mt19937 random(1);
+  return networks::spread_conductances(graph.number_of_edges(), 2, random);
+}
+
+/// Faces in a row.
+Dual_graph path(std::size_t faces) {
+  std::vector<std::array<Index, 2>> edges;
+  for (Index f = 1; f < faces; ++f) edges.push_back({f - 1, f});
+  return Dual_graph(faces, edges);
+}
+
+Automatic_segmentation reduced(std::size_t segments) {
+  Automatic_segmentation policy(segments);
+  policy.reduction.largest_direct = 0;
+  return policy;
+}
+
+struct Result {
+  std::vector<std::size_t> ids;
+  Segmentation_report report;
+};
+
+template <class Np = CGAL::parameters::Default_named_parameters>
+Result segmented(const meshes::Surface_mesh& mesh, const Automatic_segmentation& policy,
+                 const std::vector<meshes::Surface_mesh::Face_index>& given = {},
+                 const Np& np = CGAL::parameters::default_values()) {
+  Face_labels<meshes::Surface_mesh> ids(mesh);
+  const auto hierarchy = hierarchy_via_random_walks(mesh, policy, given, np);
+  hierarchy.segments([&](const Merge_tree& tree) { return policy.stop(tree); }, ids.map());
+  return {ids.values(), hierarchy.report()};
+}
+
+}  // namespace
+
+TEST(FaceClusters, EachIsConnectedAndCrossesNoForbiddenEdge) {
+  const Dual_graph graph = networks::triangulated_torus(20);
+  std::vector<char> is_crossed = all_crossed(graph);
+  std::mt19937 random(1);
+  for (char& crossed : is_crossed) crossed = random() % 4 != 0;
+  const Face_clusters clusters(graph, random_conductances(graph), is_crossed, 3, {});
+  // Joined over edges that may be crossed within a cluster, faces make as many components as there are clusters.
+  std::vector<double> within(graph.number_of_edges());
+  for (Index e = 0; e < within.size(); ++e) {
+    const auto [f, g] = graph.faces_of(e);
+    within[e] = is_crossed[e] && clusters.of_face[f] == clusters.of_face[g];
+  }
+  EXPECT_EQ(internal::components(graph, within).count, clusters.root.size());
+  for (std::size_t c = 0; c < clusters.root.size(); ++c) EXPECT_EQ(clusters.of_face[clusters.root[c]], c);
+}
+
+TEST(FaceClusters, RootsKeepTheirDistanceAndLeaveNoFaceFartherOff) {
+  const Dual_graph graph = networks::triangulated_torus(20);
+  constexpr std::size_t steps = 4;
+  const Face_clusters clusters(graph, random_conductances(graph), all_crossed(graph), steps, {});
+  for (const Index root : clusters.root) {
+    std::vector<Index> near = {root};
+    internal::add_surroundings(graph, steps, near);
+    EXPECT_EQ(std::count_if(near.begin(), near.end(), [&](Index f) { return clusters.root[clusters.of_face[f]] == f; }),
+              1)
+        << root;
+  }
+  std::vector<Index> reached = clusters.root;
+  internal::add_surroundings(graph, steps, reached);
+  EXPECT_EQ(reached.size(), graph.number_of_faces());
+}
+
+TEST(FaceClusters, FacesToBeLeftAloneAreTheFirstClusters) {
+  const Dual_graph graph = networks::triangulated_torus(10);
+  const std::vector<Index> alone = {17, 3, 18, 150};
+  const Face_clusters clusters(graph, random_conductances(graph), all_crossed(graph), 3, alone);
+  for (std::size_t c = 0; c < alone.size(); ++c) {
+    EXPECT_EQ(clusters.root[c], alone[c]);
+    EXPECT_EQ(std::count(clusters.of_face.begin(), clusters.of_face.end(), c), 1);
+  }
+}
+
+TEST(FaceClusters, ResistancesInARowAddUpToThoseOfTheFaces) {
+  const Dual_graph graph = path(200);
+  const std::vector<double> conductances = random_conductances(graph);
+  const Face_clusters clusters(graph, conductances, all_crossed(graph), 5, {0, 199});
+  ASSERT_EQ(clusters.graph.number_of_edges() + 1, clusters.root.size());
+  const auto resistance = [](const std::vector<double>& c) {
+    return std::accumulate(c.begin(), c.end(), 0., [](double sum, double value) { return sum + 1 / value; });
+  };
+  EXPECT_NEAR(resistance(clusters.conductances) / resistance(conductances), 1, 1e-12);
+}
+
+TEST(FaceClusters, AnEdgeThatDoesNotConductCutsTheirNetwork) {
+  const Dual_graph graph = path(20);
+  std::vector<double> conductances(19, 1.);
+  std::vector<char> is_crossed = all_crossed(graph);
+  conductances[9] = 0;
+  is_crossed[9] = false;
+  const Face_clusters clusters(graph, conductances, is_crossed, 3, {});
+  EXPECT_EQ(internal::components(clusters.graph, clusters.conductances).count, 2u);
+}
+
+TEST(SettleBand, OverTheWholeGraphItIsTheWalkFromTheSeeds) {
+  const Dual_graph graph = networks::triangulated_torus(16);
+  const std::vector<double> conductances = random_conductances(graph);
+  const std::vector<Index> seeds = {5, 100, 300};
+  const std::vector<std::size_t> walked = internal::walk_labels(graph, conductances, seeds, {0, 1, 2});
+  std::vector<std::size_t> labels(graph.number_of_faces(), 7);
+  for (std::size_t s = 0; s < seeds.size(); ++s) labels[seeds[s]] = s;
+  internal::settle_band(graph, conductances, std::vector<char>(graph.number_of_faces(), true), seeds, labels, {});
+  EXPECT_EQ(labels, walked);
+}
+
+TEST(SettleBand, FacesOutsideAndPartsWithoutAnyKeepTheirLabels) {
+  const Dual_graph graph(8, {{0, 1}, {1, 2}, {2, 3}, {4, 5}, {6, 7}});
+  std::vector<std::size_t> labels = {0, 0, 1, 1, 2, 3, 4, 5};
+  internal::settle_band(graph, {1, 10, 1, 1, 1}, {false, true, true, true, true, true, false, false}, {}, labels, {});
+  EXPECT_EQ(labels, (std::vector<std::size_t>{0, 0, 0, 0, 2, 3, 4, 5}));
+}
+
+TEST(SettleBand, ABandReachesSoManyNodesFromABoundary) {
+  EXPECT_EQ(internal::band_along_boundaries(path(10), {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 0).size(), 0u);
+  EXPECT_EQ(internal::band_along_boundaries(path(10), {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 1).size(), 2u);
+  EXPECT_EQ(internal::band_along_boundaries(path(10), {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 3).size(), 6u);
+  EXPECT_EQ(internal::band_along_boundaries(path(10), std::vector<std::size_t>(10, 4), 3).size(), 0u);
+}
+
+TEST(WalkReduction, FindsTheSegmentsOfTheDirectWalk) {
+  for (const auto& shape :
+       {meshes::two_spheres_with_neck(2.4, 0.3, 96), meshes::two_spheres_with_neck(2.0001, 0.2, 64)}) {
+    const auto mesh = meshes::surface_mesh(shape);
+    const Result direct = segmented(mesh, Automatic_segmentation(2)), by_clusters = segmented(mesh, reduced(2));
+    EXPECT_EQ(direct.report.clusters, 0u);
+    EXPECT_GT(by_clusters.report.clusters, by_clusters.report.fragments);
+    EXPECT_LT(by_clusters.report.clusters, num_faces(mesh) / 3);
+    EXPECT_LT(segmentation_measures::Overlaps(direct.ids, by_clusters.ids).hamming_distance(), 0.02);
+  }
+}
+
+TEST(WalkReduction, TakesHoldAboveTheLargestMeshThatIsWalkedOnDirectly) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(3));
+  Automatic_segmentation policy;
+  policy.reduction.largest_direct = num_faces(mesh);
+  EXPECT_EQ(segmented(mesh, policy).report.clusters, 0u);
+  --policy.reduction.largest_direct;
+  EXPECT_GT(segmented(mesh, policy).report.clusters, 0u);
+}
+
+TEST(WalkReduction, KeepsGivenSeedsComponentsAndConstrainedEdges) {
+  const auto mesh = meshes::surface_mesh(
+      meshes::together(meshes::tube(2, 48, 48), meshes::moved(meshes::sphere(2), Eigen::Vector3d(5, 0, 0))));
+  const auto is_seam = [&](meshes::Surface_mesh::Edge_index e) {
+    const auto above = [&](auto v) { return mesh.point(v)[2] > 1.01; };
+    return mesh.point(mesh.vertex(e, 0))[0] < 2 && above(mesh.vertex(e, 0)) != above(mesh.vertex(e, 1));
+  };
+  std::vector<bool> constrained(mesh.num_edges());
+  for (const auto e : mesh.edges()) constrained[e] = is_seam(e);
+  const auto map = boost::make_function_property_map<meshes::Surface_mesh::Edge_index>(
+      [&](meshes::Surface_mesh::Edge_index e) { return static_cast<bool>(constrained[e]); });
+  const std::vector<meshes::Surface_mesh::Face_index> given = {meshes::Surface_mesh::Face_index(0),
+                                                               meshes::Surface_mesh::Face_index(1)};
+  const auto hierarchy =
+      hierarchy_via_random_walks(mesh, reduced(3), given, CGAL::parameters::edge_is_constrained_map(map));
+  Face_labels<meshes::Surface_mesh> ids(mesh);
+  hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), ids.map());
+  EXPECT_NE(ids.values()[0], ids.values()[1]);
+  EXPECT_GE(hierarchy.report().components, 2u);
+  for (const auto e : mesh.edges()) {
+    if (!constrained[e] || mesh.is_border(e)) continue;
+    EXPECT_NE(ids.values()[mesh.face(mesh.halfedge(e))], ids.values()[mesh.face(mesh.opposite(mesh.halfedge(e)))]);
+  }
+}
+
+TEST(WalkReduction, AMeshOfFewFacesIsSegmentedToo) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  EXPECT_EQ(segmented(mesh, reduced(1)).ids.size(), 12u);
+}
+
+TEST(WalkReduction, NumbersOutOfRangeAreErrors) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  Automatic_segmentation policy;
+  policy.reduction.cluster_steps = 0;
+  EXPECT_THROW(segmented(mesh, policy), std::invalid_argument);
+  policy.reduction = Walk_reduction();
+  policy.reduction.largest_difference = 0;
+  EXPECT_THROW(segmented(mesh, policy), std::invalid_argument);
+}
