@@ -20,6 +20,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -35,12 +36,13 @@ struct Arguments {
   std::vector<std::string> meshes;
   std::vector<std::string> sizes = {"10k", "40k", "160k", "640k", "1000k", "2500k"};
   std::vector<std::string> families = {"subdivided", "unstructured"};
+  std::string path = "default";
   std::size_t repeats = 3;
   std::size_t threads = 1;
 };
 
-constexpr std::array stage_names = {"mesh",     "normals", "conductances", "seeds",
-                                    "ordering", "walk",    "thickness",    "merging"};
+constexpr std::array stage_names = {"mesh",  "normals", "conductances", "ordering",
+                                    "seeds", "walk",    "thickness",    "merging"};
 
 // ---- Meshes ----
 
@@ -85,11 +87,19 @@ Mesh unstructured(Mesh mesh) {
 // ---- Measurements ----
 
 struct Measurement {
-  std::string family;
+  std::string family, path;
   double faces, milliseconds, megabytes;
 };
 
-/// Segments, milliseconds, memory above the mesh in MB, and the milliseconds of the stages.
+/// With the walk over the faces, over clusters of them, or as large meshes have it by default.
+Automatic_segmentation policy_of(const std::string& path) {
+  Automatic_segmentation policy;
+  if (path == "direct") policy.reduction.largest_direct = std::numeric_limits<std::size_t>::max();
+  if (path == "reduced") policy.reduction.largest_direct = 0;
+  return policy;
+}
+
+/// Segments, clusters, milliseconds, memory above the mesh in MB, and the milliseconds of the stages.
 std::vector<double> run(Mesh& mesh, const Arguments& arguments) {
   constexpr double long_run = 5000;  // ms; is not repeated
 #ifdef CGAL_LINKED_WITH_TBB
@@ -97,22 +107,24 @@ std::vector<double> run(Mesh& mesh, const Arguments& arguments) {
 #endif
   const auto labels = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
   const double before = resident_mb();
-  std::size_t segments = 0;
+  const Automatic_segmentation policy = policy_of(arguments.path);
+  std::size_t segments = 0, clusters = 0;
   std::vector<double> total;
   std::array<std::vector<double>, stage_names.size()> stages;
   while (total.size() < arguments.repeats && (total.empty() || total.front() < long_run)) {
-    const Automatic_segmentation policy;
     const Stopwatch watch;
     const auto hierarchy = hierarchy_via_random_walks(mesh, policy);
     segments = hierarchy.segments([&](const Merge_tree& tree) { return policy.stop(tree); }, labels);
     total.push_back(watch.milliseconds());
+    clusters = hierarchy.report().clusters;
     for (std::size_t s = 0; s < stages.size(); ++s) {
       const Segmentation_report::Stage& stage = hierarchy.report().stages.at(s);
       if (stage.name != stage_names[s]) throw std::logic_error("there is a new stage: " + stage.name);
       stages[s].push_back(1000 * stage.seconds);
     }
   }
-  std::vector<double> numbers = {static_cast<double>(segments), median(total), peak_mb() - before};
+  std::vector<double> numbers = {static_cast<double>(segments), static_cast<double>(clusters), median(total),
+                                 peak_mb() - before};
   for (const auto& stage : stages) numbers.push_back(median(stage));
   return numbers;
 }
@@ -124,16 +136,21 @@ void measure(const std::string& family, const std::string& size, Mesh& mesh, dou
   const Outcome outcome = in_own_process([&] { return run(mesh, arguments); });
   if (!outcome.failure.empty()) throw std::runtime_error(family + ' ' + size + ": " + outcome.failure);
   const auto& n = outcome.numbers;
-  measurements.push_back({family, static_cast<double>(faces), n[1], n[2]});
-  std::printf("%-13s %-7s %9zu %9.0f %9.0f %8.2f %8.0f %9.0f %9.0f ", family.c_str(), size.c_str(), faces, read_ms,
-              n[1], 1000 * n[1] / static_cast<double>(faces), n[2], 1e6 * n[2] / static_cast<double>(faces), n[0]);
+  const double segments = n[0], clusters = n[1], total_ms = n[2], above_mesh_mb = n[3];
+  const char* path = clusters > 0 ? "reduced" : "direct";
+  const double us_per_face = 1000 * total_ms / static_cast<double>(faces);
+  measurements.push_back({family, path, static_cast<double>(faces), total_ms, above_mesh_mb});
+  std::printf("%-13s %-7s %-7s %9zu %9.0f %9.0f %8.2f %8.0f %9.0f %9.0f ", family.c_str(), size.c_str(), path, faces,
+              read_ms, total_ms, us_per_face, above_mesh_mb, 1e6 * above_mesh_mb / static_cast<double>(faces),
+              segments);
   Result& result = results.emplace_back("scaling");
-  result.add("family", family).add("size", size).add("faces", faces).add("path", "direct");
-  result.add("threads", arguments.threads).add("read_ms", read_ms).add("total_ms", n[1]);
-  result.add("us_per_face", 1000 * n[1] / static_cast<double>(faces)).add("above_mesh_mb", n[2]).add("segments", n[0]);
+  result.add("family", family).add("size", size).add("faces", faces).add("path", path);
+  result.add("threads", arguments.threads).add("read_ms", read_ms).add("total_ms", total_ms);
+  result.add("us_per_face", us_per_face).add("above_mesh_mb", above_mesh_mb).add("segments", segments);
+  if (clusters > 0) result.add("clusters", clusters);
   for (std::size_t s = 0; s < stage_names.size(); ++s) {
-    std::printf(" %12.0f", n[3 + s]);
-    result.add((std::string(stage_names[s]) + "_ms").c_str(), n[3 + s]);
+    std::printf(" %12.0f", n[4 + s]);
+    result.add((std::string(stage_names[s]) + "_ms").c_str(), n[4 + s]);
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -154,20 +171,21 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
   return xy / xx;
 }
 
-/// Fits the growth of a family from 100 000 faces on, where there are sizes enough.
-void fit(const std::string& family, const std::vector<Measurement>& measurements, std::vector<Result>& results) {
+/// Fits the growth of a family on a path from 100 000 faces on, where there are sizes enough.
+void fit(const std::string& family, const std::string& path, const std::vector<Measurement>& measurements,
+         std::vector<Result>& results) {
   std::vector<std::pair<double, double>> times, memories;
   for (const Measurement& m : measurements) {
-    if (m.family != family || m.faces < 1e5) continue;
+    if (m.family != family || m.path != path || m.faces < 1e5) continue;
     times.emplace_back(m.faces, m.milliseconds);
     memories.emplace_back(m.faces, m.megabytes);
   }
   if (times.size() < 2) return;
   const double of_time = exponent(times), of_memory = exponent(memories);
-  std::printf("%s, from %.0f to %.0f faces: time grows with the power %.2f, memory with %.2f\n", family.c_str(),
-              times.front().first, times.back().first, of_time, of_memory);
+  std::printf("%s, %s, from %.0f to %.0f faces: time grows with the power %.2f, memory with %.2f\n", family.c_str(),
+              path.c_str(), times.front().first, times.back().first, of_time, of_memory);
   Result& result = results.emplace_back("scaling_exponent");
-  result.add("family", family).add("path", "direct").add("from", times.front().first).add("to", times.back().first);
+  result.add("family", family).add("path", path).add("from", times.front().first).add("to", times.back().first);
   result.add("time", of_time).add("memory", of_memory);
 }
 
@@ -189,6 +207,9 @@ int main(int argc, char** argv) try {
       ->check(CLI::IsMember({"subdivided", "unstructured"}))
       ->capture_default_str()
       ->excludes("MESH");
+  app.add_option("--path", arguments.path, "Whether walks run over faces or over clusters of them")
+      ->check(CLI::IsMember({"direct", "reduced", "default"}))
+      ->capture_default_str();
   app.add_option("--repeats", arguments.repeats, "Runs whose median counts; those above 5 s are not repeated")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -199,8 +220,8 @@ int main(int argc, char** argv) try {
 
   std::vector<Measurement> measurements;
   std::vector<Result> results;
-  std::printf("%-13s %-7s %9s %9s %9s %8s %8s %9s %9s ", "family", "size", "faces", "read ms", "total ms", "us/face",
-              "MB", "byte/face", "segments");
+  std::printf("%-13s %-7s %-7s %9s %9s %9s %8s %8s %9s %9s ", "family", "size", "path", "faces", "read ms", "total ms",
+              "us/face", "MB", "byte/face", "segments");
   for (const char* stage : stage_names) std::printf(" %12s", stage);
   std::printf("\n");
   if (arguments.meshes.empty())
@@ -209,7 +230,7 @@ int main(int argc, char** argv) try {
         Mesh mesh = family == "unstructured" ? unstructured(mesh_of_size(size)) : mesh_of_size(size);
         measure(family, size, mesh, milliseconds_to_read(mesh), arguments, measurements, results);
       }
-      fit(family, measurements, results);
+      for (const char* path : {"direct", "reduced"}) fit(family, path, measurements, results);
     }
   for (const std::string& path : arguments.meshes) {
     const double read_ms = milliseconds_to_read(path);
