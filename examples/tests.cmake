@@ -32,6 +32,9 @@ example_test(seeds seeds ARGUMENTS ${meshes}/bear.off 11763 11824 1483 8789 8748
 example_test(automatic_segments automatic_segments ARGUMENTS ${meshes}/bear.off
   PRINTS "^8 segments\n2 segments\n3 segments\n.*\n8 segments\n$")
 
+example_test(large_mesh large_mesh ARGUMENTS ${meshes}/bear.off
+  PRINTS "^[1-9][0-9]* segments by clusters\n[1-9][0-9]* segments by a simplified copy of 6912 faces\n$")
+
 example_test(engineering_segments engineering_segments ARGUMENTS ${meshes}/cube-meshed.off
   PRINTS "^plane\nplane\nplane\nplane\nplane\nplane\n$")
 

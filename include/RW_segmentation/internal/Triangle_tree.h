@@ -4,6 +4,9 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Face_geometry.h>
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/squared_distance_3.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -69,6 +73,10 @@ class Triangle_tree {
   /// if it does not. Triangles that it meets from outside do not stop it.
   /// \param direction a unit vector
   double exit_distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, Index start) const;
+
+  /// The face of the triangle that is closest to a point, the lowest on a tie, among those that look into a direction
+  /// rather than away from it; nothing if there is none. Any triangle with an area will do for the zero vector.
+  std::optional<Index> closest_face(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
 
  private:
   using Box = Eigen::AlignedBox3f;
@@ -169,6 +177,51 @@ inline double Triangle_tree::exit_distance(const Eigen::Vector3d& origin, const 
     }
   }
   return exit;
+}
+
+inline std::optional<Dual_graph::Index> Triangle_tree::closest_face(const Eigen::Vector3d& point,
+                                                                    const Eigen::Vector3d& direction) const {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  const auto kernel_point = [](const Eigen::Vector3d& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
+  const Kernel::Point_3 from = kernel_point(point);
+  const Eigen::Vector3f position = point.cast<float>();
+  std::optional<Index> closest;
+  double least = std::numeric_limits<double>::infinity();
+  // Boxes are wider than their triangles by more than the rounding of this.
+  const auto is_near = [&](float squared_distance) { return static_cast<double>(squared_distance) <= least; };
+
+  struct Node {
+    std::size_t node;
+    float squared_distance;
+  };
+  std::array<Node, 64> open;  // at most one a level
+  std::size_t number_open = 0;
+  if (!triangles_.empty()) open[number_open++] = {1, 0};
+  while (number_open > 0) {
+    const auto [node, squared_distance] = open[--number_open];
+    if (!is_near(squared_distance)) continue;
+    if (node < leaves_) {
+      Node near = {2 * node, boxes_[2 * node].squaredExteriorDistance(position)};
+      Node far = {2 * node + 1, boxes_[2 * node + 1].squaredExteriorDistance(position)};
+      if (far.squared_distance < near.squared_distance) std::swap(near, far);
+      if (is_near(far.squared_distance)) open[number_open++] = far;
+      if (is_near(near.squared_distance)) open[number_open++] = near;
+      continue;
+    }
+    for (std::size_t i = leaf_begin(node - leaves_); i < leaf_begin(node - leaves_ + 1); ++i) {
+      const auto& [corner, first_side, second_side, face] = triangles_[i];
+      const Eigen::Vector3d area_vector = first_side.cross(second_side);
+      if (area_vector.isZero(0) || (!direction.isZero(0) && !(area_vector.dot(direction) > 0))) continue;
+      const double distance =
+          CGAL::squared_distance(from, Kernel::Triangle_3(kernel_point(corner), kernel_point(corner + first_side),
+                                                          kernel_point(corner + second_side)));
+      if (distance < least || (distance == least && closest && face < *closest)) {
+        least = distance;
+        closest = face;
+      }
+    }
+  }
+  return closest;
 }
 
 }  // namespace RW_segmentation::internal
