@@ -17,7 +17,14 @@
 namespace RW_segmentation {
 
 /// What a piece of a solid's surface is.
-enum class Surface_type { plane, sphere, cylinder, cone, torus, free_form };
+enum class Surface_type {
+  plane,      ///< flat
+  sphere,     ///< at one distance from a point
+  cylinder,   ///< at one distance from a line
+  cone,       ///< lines through an apex, at one angle to an axis
+  torus,      ///< at one distance from a circle
+  free_form,  ///< none of these
+};
 
 /// The types that can be fitted, the simplest first.
 constexpr std::array<Surface_type, 5> analytic_types = {

@@ -12,6 +12,7 @@ namespace RW_segmentation {
 /// Thrown when the user's callback asks a computation to stop. All outputs are as they were before the call.
 class Cancelled : public std::runtime_error {
  public:
+  /// With a message that says so.
   Cancelled() : std::runtime_error("cancelled by the callback") {}
 };
 
