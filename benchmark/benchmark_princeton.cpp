@@ -22,6 +22,7 @@
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Surface_mesh_approximation/approximate_triangle_mesh.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/mesh_segmentation.h>
 
@@ -34,6 +35,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <random>
@@ -53,6 +55,13 @@ using AABB_traits = CGAL::AABB_traits_3<Kernel, Primitive>;
 #include <CGAL/AABB_traits.h>
 template <class Kernel, class Primitive>
 using AABB_traits = CGAL::AABB_traits<Kernel, Primitive>;
+#endif
+
+#if __has_include(<CGAL/Polygon_mesh_processing/region_growing.h>)
+#include <CGAL/Polygon_mesh_processing/region_growing.h>
+#else
+#include <CGAL/Shape_detection/Region_growing/Region_growing.h>
+#include <CGAL/Shape_detection/Region_growing/Region_growing_on_polygon_mesh.h>
 #endif
 
 using namespace RW_segmentation;
@@ -128,11 +137,14 @@ struct Changes {
   double faces = 1;  // factor
 };
 
-void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
+double diagonal_of(const Mesh& mesh) {
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
-  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
+
+void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
   std::mt19937 random(static_cast<unsigned>(random_seed));
-  std::normal_distribution<double> noise(0, percent / 100 * diagonal);
+  std::normal_distribution<double> noise(0, percent / 100 * diagonal_of(mesh));
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
     const double x = noise(random), y = noise(random), z = noise(random);
@@ -277,6 +289,51 @@ Outcome_of_method by_shape_diameter(const Subject& subject) {
   return outcome;
 }
 
+/// CGAL's variational shape approximation with its own default parameters: as many proxies as people make segments.
+Outcome_of_method by_shape_approximation(const Subject& subject) {
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(subject.mesh));
+  const Stopwatch watch;
+  CGAL::Surface_mesh_approximation::approximate_triangle_mesh(
+      subject.mesh, CGAL::parameters::max_number_of_proxies(typical_number_of_segments(subject))
+                        .face_proxy_map(Label_map(outcome.labels.data(), get(boost::face_index, subject.mesh))));
+  outcome.stages.push_back({"approximation", watch.milliseconds() / 1000});
+  return outcome;
+}
+
+/// Planes that CGAL grows from faces, with its own default angle and a hundredth of the diagonal as distance, which has no
+/// default that heeds the size of a mesh.
+Outcome_of_method by_region_growing(const Subject& subject) {
+  const Mesh& mesh = subject.mesh;
+  const double distance = diagonal_of(mesh) / 100, degrees = 25;
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(mesh));
+  const Stopwatch watch;
+#if __has_include(<CGAL/Polygon_mesh_processing/region_growing.h>)
+  CGAL::Polygon_mesh_processing::region_growing_of_planes_on_faces(
+      mesh, Label_map(outcome.labels.data(), get(boost::face_index, mesh)),
+      CGAL::parameters::maximum_distance(distance).maximum_angle(degrees));
+#else
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Neighbors = CGAL::Shape_detection::Polygon_mesh::One_ring_neighbor_query<Mesh>;
+  using Plane = CGAL::Shape_detection::Polygon_mesh::Least_squares_plane_fit_region<Kernel, Mesh>;
+  using Order = CGAL::Shape_detection::Polygon_mesh::Least_squares_plane_fit_sorting<Kernel, Mesh, Neighbors>;
+  const auto points = get(CGAL::vertex_point, mesh);
+  Neighbors neighbors(mesh);
+  Plane plane(mesh, distance, degrees, 1, points);
+  Order order(mesh, neighbors, points);
+  order.sort();
+  const auto range = faces(mesh);
+  CGAL::Shape_detection::Region_growing growing(range, neighbors, plane, order.seed_map());
+  std::vector<std::vector<std::size_t>> regions;
+  growing.detect(std::back_inserter(regions));
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const std::size_t f : regions[r]) outcome.labels[f] = r;
+#endif
+  outcome.stages.push_back({"growing", watch.milliseconds() / 1000});
+  return outcome;
+}
+
 const std::vector<std::pair<std::string, Method>>& methods() {
   static const std::vector<std::pair<std::string, Method>> all = {
       {"automatic", [](const Subject& s) { return by_walks(s, Automatic_segmentation()); }},
@@ -285,6 +342,8 @@ const std::vector<std::pair<std::string, Method>>& methods() {
       {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
       {"coarse", by_coarse_seeds},
       {"sdf", by_shape_diameter},
+      {"vsa", by_shape_approximation},
+      {"region_growing", by_region_growing},
   };
   return all;
 }
