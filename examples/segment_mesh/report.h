@@ -23,36 +23,32 @@ inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
   using RW_segmentation::Surface_type;
   constexpr double degree = 3.14159265358979323846 / 180;
   const auto vector = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
+  Json result;
   switch (surface.type) {
     case Surface_type::plane:
-      return {{"type", "plane"},
-              {"point", vector(surface.point)},
-              {"normal", vector(surface.direction)},
-              {"residual", surface.residual}};
-    case Surface_type::sphere:
-      return {{"type", "sphere"},
-              {"centre", vector(surface.point)},
-              {"radius", surface.radius},
-              {"residual", surface.residual}};
-    case Surface_type::cylinder:
-      return {{"type", "cylinder"},
-              {"point", vector(surface.point)},
-              {"axis", vector(surface.direction)},
-              {"radius", surface.radius},
-              {"residual", surface.residual}};
-    case Surface_type::cone:
-      return {{"type", "cone"},
-              {"apex", vector(surface.point)},
-              {"axis", vector(surface.direction)},
-              {"half_angle", surface.half_angle / degree},
-              {"residual", surface.residual}};
-    case Surface_type::torus:
-      return {{"type", "torus"},          {"centre", vector(surface.point)},    {"axis", vector(surface.direction)},
-              {"radius", surface.radius}, {"tube_radius", surface.tube_radius}, {"residual", surface.residual}};
-    case Surface_type::free_form:
+      result = {{"type", "plane"}, {"point", vector(surface.point)}, {"normal", vector(surface.direction)}};
       break;
+    case Surface_type::sphere:
+      result = {{"type", "sphere"}, {"centre", vector(surface.point)}, {"radius", surface.radius}};
+      break;
+    case Surface_type::cylinder:
+      result = {{"type", "cylinder"}, {"point", vector(surface.point)}, {"axis", vector(surface.direction)}};
+      result["radius"] = surface.radius;
+      break;
+    case Surface_type::cone:
+      result = {{"type", "cone"}, {"apex", vector(surface.point)}, {"axis", vector(surface.direction)}};
+      result["half_angle"] = surface.half_angle / degree;
+      break;
+    case Surface_type::torus:
+      result = {{"type", "torus"}, {"centre", vector(surface.point)}, {"axis", vector(surface.direction)}};
+      result["radius"] = surface.radius;
+      result["tube_radius"] = surface.tube_radius;
+      break;
+    case Surface_type::free_form:
+      return {{"type", "free form"}};
   }
-  return {{"type", "free form"}};
+  result["residual"] = surface.residual;
+  return result;
 }
 
 template <class Policy>
