@@ -1,11 +1,13 @@
-// A merge cost, a stop and a seeding of one's own, where the library's do not fit.
+// A solver, a merge cost and a stop of one's own, where the library's do not fit.
 //
 //   own_policies MESH
 //
-// Sixty farthest-point seeds make fragments; the smallest fragments are merged first, until the cost would grow most.
+// Sixty farthest-point seeds make fragments by a solver of Eigen's; the smallest fragments are merged first, until the
+// cost would grow most.
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
 #include <RW_segmentation/merge_segments.h>
@@ -14,6 +16,8 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cstddef>
@@ -24,6 +28,7 @@
 
 using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 using Face = Mesh::Face_index;
+using Cholesky = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
 // A model of MergeCost: the area of the smaller region, times how different the regions are.
 class Smallest_area_cost {
@@ -70,7 +75,9 @@ int main(int argc, char** argv) {
     RW_segmentation::feature_sensitive_seeds(mesh, 60, std::back_inserter(seeds));
     const RW_segmentation::Dihedral_difference difference(mesh);
     const RW_segmentation::Conductance conductance(mesh, difference);
-    RW_segmentation::segmentation_from_seeds(mesh, conductance, seeds, segment);
+    RW_segmentation::Random_walk<Mesh, RW_segmentation::Eigen_walk_solver<Cholesky>> walk(mesh, conductance);
+    for (std::size_t i = 0; i < seeds.size(); ++i) walk.add_seed(seeds[i], i);
+    walk.segment(segment);
 
     const auto hierarchy = RW_segmentation::merge_segments(mesh, segment, difference, Smallest_area_cost(mesh));
     std::cout << hierarchy.segments(largest_gap, segment) << " segments by the largest gap\n";

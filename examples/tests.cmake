@@ -38,6 +38,10 @@ example_test(large_mesh large_mesh ARGUMENTS ${meshes}/bear.off
 example_test(engineering_segments engineering_segments ARGUMENTS ${meshes}/cube-meshed.off
   PRINTS "^plane\nplane\nplane\nplane\nplane\nplane\n$")
 
+# A seed in the middle of each side.
+example_test(curvature_seeds curvature_seeds ARGUMENTS ${meshes}/cube-meshed.off 401 853 1228 1239 831 1290
+  PRINTS "^segment 0: 288 faces\nsegment 1: 288 faces\nsegment 2: 288 faces\nsegment 3: 288 faces\nsegment 4: 288 faces\n")
+
 # 2390 faces in two segments, which are the same whatever holds the mesh.
 foreach(program polyhedron openmesh)
   example_test(${program} ${program} ARGUMENTS ${meshes}/hand.off
