@@ -57,12 +57,12 @@ Point centroid(const Mesh& mesh, Face f) {
 
 // ---- One parameter changed ----
 
-/// The numbers that can be changed, with the library's defaults.
+/// The numbers that can be changed, with the library's defaults. `increase` has none.
 struct Numbers {
   RW::Automatic_segmentation automatic;
   RW::Engineering_segmentation engineering;
   RW::Boundary_smoothing boundary;
-  double threshold = 0.4, decrease = 0.6, radius = 3;
+  double increase = 0, threshold = 0.4, decrease = 0.6, radius = 3;
 };
 
 Segment_map new_segments(Mesh& mesh) { return mesh.add_property_map<Face, std::size_t>("f:segment").first; }
@@ -78,6 +78,12 @@ void paint_segments(const Mesh& mesh, const Segment_map& segments, Color_map col
 void automatically(Mesh& mesh, const Numbers& numbers, Color_map colors) {
   const Segment_map segments = new_segments(mesh);
   RW::segmentation_via_random_walks(mesh, segments, numbers.automatic);
+  paint_segments(mesh, segments, colors);
+}
+
+void automatically_to_jump(Mesh& mesh, const Numbers& numbers, Color_map colors) {
+  const Segment_map segments = new_segments(mesh);
+  RW::hierarchy_via_random_walks(mesh).segments(RW::Cost_jump_stop(numbers.increase), segments);
   paint_segments(mesh, segments, colors);
 }
 
@@ -150,6 +156,7 @@ const std::map<std::string, Parameter>& parameters() {
       {"noise_angle", {[](Numbers& n, double x) { n.automatic.smoothing.noise_angle = x; }, automatically}},
       {"largest_widening", {[](Numbers& n, double x) { n.automatic.smoothing.largest_widening = x; }, automatically}},
       {"heavy_noise", {[](Numbers& n, double x) { n.automatic.smoothing.heavy_noise = x; }, automatically}},
+      {"increase", {[](Numbers& n, double x) { n.increase = x; }, automatically_to_jump}},
       {"noise", {[](Numbers& n, double x) { n.engineering.noise = x; }, part_of_machine}},
       {"radius", {[](Numbers& n, double x) { n.radius = x; }, curvature_difference}},
       {"threshold", {[](Numbers& n, double x) { n.threshold = x; }, coarsely_by_threshold}},
