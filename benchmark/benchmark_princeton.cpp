@@ -18,16 +18,21 @@
 #include <RW_segmentation/coarse_seeds.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
+#include <RW_segmentation/transfer_segments.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Surface_mesh_approximation/approximate_triangle_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/mesh_segmentation.h>
 
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -273,6 +278,52 @@ Outcome_of_method by_coarse_seeds(const Subject& subject) {
   return outcome;
 }
 
+/// The segments of a copy with a quarter of the edges, carried back.
+template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+Outcome_of_method by_simplified_copy(const Subject& subject, Mesh& copy,
+                                     const NamedParameters& np = CGAL::parameters::default_values()) {
+  const Mesh& mesh = subject.mesh;
+  Outcome_of_method outcome;
+  outcome.labels.resize(num_faces(mesh));
+  const Stopwatch collapse;
+  CGAL::Surface_mesh_simplification::edge_collapse(copy, Edge_ratio_stop{0.25}, np);
+  copy.collect_garbage();
+  outcome.stages.push_back({"collapse", collapse.milliseconds() / 1000});
+
+  const auto segments = copy.add_property_map<Face, std::size_t>("f:segment").first;
+  const Stopwatch segmentation;
+  segmentation_via_random_walks(copy, segments);
+  outcome.stages.push_back({"segmentation", segmentation.milliseconds() / 1000});
+
+  const Stopwatch transfer;
+  const auto index = get(boost::face_index, mesh);
+  std::vector<CGAL::Simple_cartesian<double>::Vector_3> vectors(num_faces(mesh));
+  const auto normals = boost::make_iterator_property_map(vectors.begin(), index);
+  smoothed_face_normals(mesh, normals);
+  const Dihedral_difference<Mesh> concavity(mesh, normals, 0, Dihedral_measure::angle);
+  transfer_segments(copy, segments, mesh, Conductance<Mesh>(mesh, concavity), Label_map(outcome.labels.data(), index));
+  outcome.stages.push_back({"transfer", transfer.milliseconds() / 1000});
+  return outcome;
+}
+
+/// Collapses by the quadrics of Garland and Heckbert.
+Outcome_of_method by_quadrics(const Subject& subject) {
+  Mesh copy = subject.mesh;
+  const CGAL::Surface_mesh_simplification::GarlandHeckbert_plane_policies<Mesh, CGAL::Simple_cartesian<double>>
+      policies(copy);
+  return by_simplified_copy(subject, copy,
+                            CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+}
+
+/// Collapses the shortest edges to their middles.
+Outcome_of_method by_edge_lengths(const Subject& subject) {
+  namespace Simplification = CGAL::Surface_mesh_simplification;
+  Mesh copy = subject.mesh;
+  return by_simplified_copy(subject, copy,
+                            CGAL::parameters::get_cost(Simplification::Edge_length_cost<Mesh>())
+                                .get_placement(Simplification::Midpoint_placement<Mesh>()));
+}
+
 /// CGAL's segmentation by shape diameters, with its own default parameters.
 Outcome_of_method by_shape_diameter(const Subject& subject) {
   Outcome_of_method outcome;
@@ -334,6 +385,12 @@ Outcome_of_method by_region_growing(const Subject& subject) {
   return outcome;
 }
 
+Automatic_segmentation with_reduced_walk() {
+  Automatic_segmentation policy;
+  policy.reduction.largest_direct = 0;
+  return policy;
+}
+
 const std::vector<std::pair<std::string, Method>>& methods() {
   static const std::vector<std::pair<std::string, Method>> all = {
       {"automatic", [](const Subject& s) { return by_walks(s, Automatic_segmentation()); }},
@@ -341,6 +398,14 @@ const std::vector<std::pair<std::string, Method>>& methods() {
       {"paper", [](const Subject& s) { return by_walks(s, Paper_segmentation()); }},
       {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
       {"coarse", by_coarse_seeds},
+      {"clusters", [](const Subject& s) { return by_walks(s, with_reduced_walk()); }},
+      {"collapse",
+       [](const Subject& s) {
+         Mesh copy = s.mesh;
+         return by_simplified_copy(s, copy);
+       }},
+      {"collapse_quadrics", by_quadrics},
+      {"collapse_lengths", by_edge_lengths},
       {"sdf", by_shape_diameter},
       {"vsa", by_shape_approximation},
       {"region_growing", by_region_growing},
@@ -354,11 +419,12 @@ const std::vector<std::pair<std::string, Method>>& methods() {
 struct Score {
   std::size_t number = 0;
   double error = 0, hamming = 0, global_consistency = 0, local_consistency = 0, segments = 0, milliseconds = 0;
+  double overlap = 0;  // of the segments with those of the direct automatic segmentation
   std::vector<Segmentation_report::Stage> stages;
 
-  static constexpr std::array names = {"error", "hamming", "GCE", "LCE", "segments", "ms"};
+  static constexpr std::array names = {"error", "hamming", "GCE", "LCE", "segments", "ms", "overlap"};
   std::array<double, names.size()> numbers() const {
-    return {error, hamming, global_consistency, local_consistency, segments, milliseconds};
+    return {error, hamming, global_consistency, local_consistency, segments, milliseconds, overlap};
   }
 };
 
@@ -379,6 +445,8 @@ Score score_of(const Subject& subject, const Method& method) {
   for (const Labels& person : subject.people)
     add_comparison(score, labels, person, 1 / static_cast<double>(subject.people.size()));
   score.segments = static_cast<double>(number_of_segments(outcome.labels));
+  const Labels automatic = by_walks(subject, Automatic_segmentation()).labels;
+  score.overlap = 1 - Overlaps(outcome.labels, automatic).hamming_distance();
   for (const auto& stage : outcome.stages) score.milliseconds += 1000 * stage.seconds;
   score.stages = std::move(outcome.stages);
   return score;
@@ -445,12 +513,12 @@ void print_row(const std::string& name, const std::vector<Score>& scores) {
   const std::vector<double> error = column(scores, 0);
   std::printf(" %9.4f +- %.4f", mean(error), standard_error(error));
   for (const std::size_t i : {1, 2, 3}) std::printf(" %8.4f", mean(column(scores, i)));
-  std::printf(" %8.1f %9.1f\n", mean(column(scores, 4)), mean(column(scores, 5)));
+  std::printf(" %8.1f %9.1f %8.4f\n", mean(column(scores, 4)), mean(column(scores, 5)), mean(column(scores, 6)));
 }
 
 void print_table(const std::string& method, const std::vector<Score>& scores) {
-  std::printf("\n%-10s %6s %19s %8s %8s %8s %8s %9s\n", method.c_str(), "meshes", "Rand error", "Hamming", "GCE", "LCE",
-              "segments", "ms");
+  std::printf("\n%-10s %6s %19s %8s %8s %8s %8s %9s %8s\n", method.c_str(), "meshes", "Rand error", "Hamming", "GCE",
+              "LCE", "segments", "ms", "overlap");
   std::vector<std::pair<std::string, std::vector<Score>>> categories;
   for (const Score& score : scores) {
     const std::string category = category_of(score.number);
@@ -495,6 +563,7 @@ Result result_of(const std::string& method, const Changes& changes, const std::v
       .add("gce", mean(column(scores, 2)))
       .add("lce", mean(column(scores, 3)));
   result.add("segments", mean(column(scores, 4))).add("ms_per_mesh", mean(column(scores, 5)));
+  result.add("overlap", mean(column(scores, 6)));
   return result;
 }
 
