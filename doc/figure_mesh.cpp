@@ -75,21 +75,24 @@ void paint_segments(const Mesh& mesh, const Segment_map& segments, Color_map col
   for (const Face f : mesh.faces()) colors[f] = palette[ids[f]];
 }
 
-void automatically(Mesh& mesh, const Numbers& numbers, Color_map colors) {
+template <class Policy>
+void paint_segmentation(Mesh& mesh, const Policy& policy, Color_map colors) {
   const Segment_map segments = new_segments(mesh);
-  RW::segmentation_via_random_walks(mesh, segments, numbers.automatic);
+  RW::segmentation_via_random_walks(mesh, segments, policy);
   paint_segments(mesh, segments, colors);
+}
+
+void automatically(Mesh& mesh, const Numbers& numbers, Color_map colors) {
+  paint_segmentation(mesh, numbers.automatic, colors);
+}
+
+void part_of_machine(Mesh& mesh, const Numbers& numbers, Color_map colors) {
+  paint_segmentation(mesh, numbers.engineering, colors);
 }
 
 void automatically_to_jump(Mesh& mesh, const Numbers& numbers, Color_map colors) {
   const Segment_map segments = new_segments(mesh);
   RW::hierarchy_via_random_walks(mesh).segments(RW::Cost_jump_stop(numbers.increase), segments);
-  paint_segments(mesh, segments, colors);
-}
-
-void part_of_machine(Mesh& mesh, const Numbers& numbers, Color_map colors) {
-  const Segment_map segments = new_segments(mesh);
-  RW::segmentation_via_random_walks(mesh, segments, numbers.engineering);
   paint_segments(mesh, segments, colors);
 }
 
