@@ -90,6 +90,13 @@ void part_of_machine(Mesh& mesh, const Numbers& numbers, Color_map colors) {
   paint_segmentation(mesh, numbers.engineering, colors);
 }
 
+/// By walks over clusters, which meshes of this size do not need.
+void automatically_reduced(Mesh& mesh, const Numbers& numbers, Color_map colors) {
+  RW::Automatic_segmentation policy = numbers.automatic;
+  policy.reduction.largest_direct = 0;
+  paint_segmentation(mesh, policy, colors);
+}
+
 void automatically_to_jump(Mesh& mesh, const Numbers& numbers, Color_map colors) {
   const Segment_map segments = new_segments(mesh);
   RW::hierarchy_via_random_walks(mesh).segments(RW::Cost_jump_stop(numbers.increase), segments);
@@ -159,6 +166,11 @@ const std::map<std::string, Parameter>& parameters() {
       {"noise_angle", {[](Numbers& n, double x) { n.automatic.smoothing.noise_angle = x; }, automatically}},
       {"largest_widening", {[](Numbers& n, double x) { n.automatic.smoothing.largest_widening = x; }, automatically}},
       {"heavy_noise", {[](Numbers& n, double x) { n.automatic.smoothing.heavy_noise = x; }, automatically}},
+      {"cluster_steps",
+       {[](Numbers& n, double x) { n.automatic.reduction.cluster_steps = whole(x); }, automatically_reduced}},
+      {"largest_difference",
+       {[](Numbers& n, double x) { n.automatic.reduction.largest_difference = x; }, automatically_reduced}},
+      {"band", {[](Numbers& n, double x) { n.automatic.reduction.band = whole(x); }, automatically_reduced}},
       {"increase", {[](Numbers& n, double x) { n.increase = x; }, automatically_to_jump}},
       {"noise", {[](Numbers& n, double x) { n.engineering.noise = x; }, part_of_machine}},
       {"radius", {[](Numbers& n, double x) { n.radius = x; }, curvature_difference}},
