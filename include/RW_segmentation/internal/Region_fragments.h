@@ -20,7 +20,8 @@ namespace RW_segmentation::internal {
 
 /// Makes fragments of the regions that `Surface_growing` found and of the faces that no surface explains: these form
 /// groups that are fragments themselves, or, where a group is too small to be a face of the solid and continues a
-/// region smoothly, are given to the regions by a random walk from these.
+/// region smoothly, are given to the regions by a random walk from these. Triangles that turn sharply against each
+/// other, as on coarse fillets and holes, are one group where they touch.
 class Region_fragments {
  public:
   using Index = Dual_graph::Index;
@@ -42,11 +43,15 @@ class Region_fragments {
     for (Index f = 0; f < graph_.number_of_faces(); ++f)
       if (fragment_of_face_[f] == none && region_of_face[f] != none)
         collect(f, [&](Index from, Index to, Index) { return region_of_face[from] == region_of_face[to]; });
+    constexpr double widest_angle = 90 * degrees;  // the faces of a tetrahedron stay apart
+    const std::vector<char> is_lone = lone_faces(region_of_face);
     std::vector<Index> unexplained;
     for (Index f = 0; f < graph_.number_of_faces(); ++f) {
       if (fragment_of_face_[f] != none) continue;
-      const std::vector<Index> group =
-          collect(f, [&](Index, Index to, Index edge) { return region_of_face[to] == none && is_smooth(edge); });
+      const std::vector<Index> group = collect(f, [&](Index from, Index to, Index edge) {
+        return region_of_face[to] == none &&
+               (is_smooth(edge) || (is_lone[from] && is_lone[to] && angles_[edge] < widest_angle));
+      });
       if (continues_a_region(group, region_of_face)) unexplained.insert(unexplained.end(), group.begin(), group.end());
     }
     if (!unexplained.empty()) walk(unexplained, progress);
@@ -78,17 +83,35 @@ class Region_fragments {
     return group;
   }
 
+  /// Which faces of the remainder continue smoothly into no other face of it.
+  std::vector<char> lone_faces(const std::vector<std::size_t>& region_of_face) const {
+    std::vector<char> is_lone;
+    for (Index f = 0; f < graph_.number_of_faces(); ++f) {
+      const auto neighbours = graph_.neighbours(f);
+      is_lone.push_back(region_of_face[f] == none &&
+                        std::none_of(neighbours.begin(), neighbours.end(), [&](const Dual_graph::Neighbour& n) {
+                          return region_of_face[n.face] == none && conductances_[n.edge] > 0 && is_smooth(n.edge);
+                        }));
+    }
+    return is_lone;
+  }
+
   bool continues_a_region(const std::vector<Index>& group, const std::vector<std::size_t>& region_of_face) const {
     // Of a face of the solid that is no analytic surface.
     const std::size_t fewest_faces = tolerance_.noise > 0 ? 100 : 20;
     if (group.size() >= fewest_faces || (tolerance_.noise == 0 && is_flat(group))) return false;
+    const bool is_single = group.size() == 1;  // too little to be a face of its own if any surface could hold it
     for (const Index f : group)
-      for (const auto& [g, e] : graph_.neighbours(f))
-        if (region_of_face[g] != none && conductances_[e] > 0 && is_smooth(e)) return true;
+      for (const auto& [g, e] : graph_.neighbours(f)) {
+        if (region_of_face[g] == none || !(conductances_[e] > 0)) continue;
+        if (is_smooth(e) || (is_single && angles_[e] < tolerance_.sharp_angle(graph_.faces_of(e)))) return true;
+      }
     return false;
   }
 
+  /// A single face says nothing.
   bool is_flat(const std::vector<Index>& group) const {
+    if (group.size() == 1) return false;
     const Eigen::Vector3d& normal = geometry_.normal[group.front()];
     const Eigen::Vector3d& origin = geometry_.centroid[group.front()];
     for (const Index f : group)
