@@ -102,9 +102,10 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   growing.settle_borders();
   clock.note("surfaces");
 
+  internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, growing.angles(),
+                                       conductances);
   std::vector<std::size_t> fragment_of_face =
-      internal::Region_fragments(graph, *data.geometry, *data.corners, *data.tolerance, growing.angles(), conductances)
-          .fragments(growing.region_of_face(), progress.part(0.8, 0.85));
+      fragments.fragments(growing.region_of_face(), progress.part(0.8, 0.85));
   clock.note("walk");
 
   report.components = internal::components(graph, conductances).count;
@@ -112,7 +113,10 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
   report.degenerate_faces = data.geometry->degenerate_faces;
   const auto cost = data.formula(80);
-  const auto region_of = [&](std::size_t f) { return cost.region_of(static_cast<Dual_graph::Index>(f)); };
+  const auto region_of = [&](std::size_t f) {
+    using Region = internal::Analytic_surface_formula::Region;
+    return fragments.is_given(f) ? Region() : cost.region_of(static_cast<Dual_graph::Index>(f));
+  };
   Merge_tree tree = internal::merge_fragments(
       graph, fragment_of_face, internal::join_faces(fragment_of_face, report.fragments, cost, region_of),
       data.geometry->edge_length, internal::edge_sharpness(graph, *data.geometry, *data.tolerance),

@@ -54,9 +54,14 @@ class Region_fragments {
       });
       if (continues_a_region(group, region_of_face)) unexplained.insert(unexplained.end(), group.begin(), group.end());
     }
+    is_given_.assign(graph_.number_of_faces(), false);
+    for (const Index f : unexplained) is_given_[f] = true;
     if (!unexplained.empty()) walk(unexplained, progress);
     return renumbered();
   }
+
+  /// Whether a face was given to its fragment by the walk: it tells nothing about the fragment's surface.
+  bool is_given(std::size_t face) const { return is_given_[face]; }
 
  private:
   static constexpr std::size_t none = Surface_growing::none;
@@ -168,6 +173,7 @@ class Region_fragments {
   const std::vector<double>& angles_;
   const std::vector<double>& conductances_;
   std::vector<std::size_t> fragment_of_face_;
+  std::vector<char> is_given_;  // whether a face
   std::size_t number_of_fragments_ = 0;
 };
 
