@@ -59,3 +59,37 @@ TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceAndNothingElse) {
     EXPECT_LE(segmentation_measures::Overlaps(result, solid.label).rand_index_error(), 1e-12) << solid.name;
   }
 }
+
+TEST(EdgeSharpness, IsTheAngleAsAPartOf40Degrees) {
+  for (const double size : {1., 1e-6, 1e6}) {
+    meshes::Shape cube = meshes::cube(2);
+    for (auto& p : cube.points) p *= size;
+    const Surface_mesh mesh = meshes::surface_mesh(cube);
+    const Edge_sharpness<Surface_mesh> sharpness(mesh);
+    for (const auto e : mesh.edges()) {
+      const auto h = mesh.halfedge(e);
+      const auto f = mesh.face(h), g = mesh.face(mesh.opposite(h));
+      const bool is_crease = f.idx() / 8 != g.idx() / 8;  // eight faces a side
+      EXPECT_NEAR(get(sharpness, e), is_crease ? 90. / 40 : 0, 1e-6);
+    }
+  }
+}
+
+TEST(EdgeSharpness, RefusesNoiseThatIsNoNumber) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::cube());
+  for (const double noise : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(Edge_sharpness<Surface_mesh>(mesh, noise), std::invalid_argument);
+    EXPECT_THROW(Analytic_surface_cost<Surface_mesh>(mesh, noise), std::invalid_argument);
+  }
+}
+
+// ---- The noise of the vertices ----
+
+TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
+  for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
+    const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+    const auto data =
+        internal::surface_data(mesh, Mesh_dual_graph<Surface_mesh>(mesh), -1, CGAL::parameters::default_values());
+    EXPECT_EQ(data.tolerance->noise, 0) << solid.name;
+  }
+}

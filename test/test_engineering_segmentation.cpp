@@ -100,6 +100,28 @@ TEST(EngineeringSegmentation, FindsTheFacesOfSolidsAsAKernelMeshesThem) {
     expect_every_face_found(solid);
 }
 
+TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFillets) {
+  // No round neighbourhood of twelve vertices lies on one surface. The radii alternate: four lines of a plane and two
+  // like fillets lie on one cylinder.
+  solids::Builder builder("square tube with rounded edges");
+  constexpr double width = 0.3, length = 6;
+  constexpr std::size_t around_fillet = 3, along = 20;
+  const solids::Point up = length * solids::Point::UnitZ();
+  solids::Point corner = solids::Point::Zero();
+  for (int side = 0; side < 4; ++side) {
+    const double angle = side * solids::pi / 2, radius = side % 2 == 0 ? 0.3 : 0.2;
+    const solids::Point out(std::cos(angle), std::sin(angle), 0), left(-out.y(), out.x(), 0);
+    const solids::Point begin = corner, end = begin + width * left, centre = end - radius * out;
+    builder.grid(builder.add(solids::plane(begin, out)), 1, along,
+                 [=](double u, double v) -> solids::Point { return begin + u * width * left + v * up; });
+    const auto fillet = solids::arc(centre, radius * out, radius * left, 0, solids::pi / 2);
+    builder.grid(builder.add(solids::cylinder(centre, solids::Point::UnitZ(), radius)), around_fillet, along,
+                 [=](double u, double v) -> solids::Point { return fillet(u) + v * up; });
+    corner = fillet(1);
+  }
+  expect_every_face_found(std::move(builder).solid());
+}
+
 TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
   double error = 0, found = 0, faces = 0, solids = 0;
   for (const solids::Solid& clean : solids::all(solids::even(0.1))) {
@@ -164,6 +186,51 @@ TYPED_TEST(EngineeringSegmentationOfMeshes, IsThatOfASurfaceMesh) {
   const solids::Solid solid = solids::cone_on_cylinder(solids::even(0.3));
   const TypeParam held(shape_of(solid));
   EXPECT_EQ(segments_of(held.mesh), segments_of(solid));
+}
+
+// ---- Faces that no surface explains ----
+
+namespace {
+
+struct Fragments {
+  std::vector<std::size_t> of_face;
+  std::vector<std::size_t> given_faces;
+};
+
+/// The fragments of a mesh without noise whose regions are given.
+Fragments fragments_of(const meshes::Shape& shape, const std::vector<std::size_t>& region_of_face) {
+  const auto mesh = meshes::surface_mesh(shape);
+  const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
+  const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
+  const std::vector<double> angles = internal::edge_angles(graph, *data.geometry);
+  const std::vector<double> conductances(graph.number_of_edges(), 1);
+  internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, angles, conductances);
+  Fragments result{fragments.fragments(region_of_face, Progress()), {}};
+  for (std::size_t f = 0; f < region_of_face.size(); ++f)
+    if (fragments.is_given(f)) result.given_faces.push_back(f);
+  return result;
+}
+
+constexpr std::size_t none = internal::Surface_growing::none;
+
+}  // namespace
+
+TEST(RegionFragments, HoldTrianglesTogetherThatTurnByLessThanARightAngle) {
+  meshes::Shape octahedron, tetrahedron;  // turn by 70.5 and by 109.5 degrees
+  octahedron.points = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  octahedron.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  tetrahedron.points = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+  tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  EXPECT_EQ(number_of(fragments_of(octahedron, Labels(8, none)).of_face), 1u);
+  EXPECT_EQ(number_of(fragments_of(tetrahedron, Labels(4, none)).of_face), 4u);
+}
+
+TEST(RegionFragments, GiveASingleFaceToTheRegionAboutIt) {
+  Labels regions(2 * 4 * 4, 0);
+  regions[13] = none;
+  const Fragments fragments = fragments_of(meshes::plane(4), regions);
+  EXPECT_EQ(number_of(fragments.of_face), 1u);
+  EXPECT_EQ(fragments.given_faces, std::vector<std::size_t>{13});
 }
 
 // ---- The surfaces of the segments ----

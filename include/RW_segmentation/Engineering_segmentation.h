@@ -104,8 +104,7 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
 
   internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, growing.angles(),
                                        conductances);
-  std::vector<std::size_t> fragment_of_face =
-      fragments.fragments(growing.region_of_face(), progress.part(0.8, 0.85));
+  std::vector<std::size_t> fragment_of_face = fragments.fragments(growing.region_of_face(), progress.part(0.8, 0.85));
   clock.note("walk");
 
   report.components = internal::components(graph, conductances).count;

@@ -12,8 +12,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
 #include <utility>
 #include <vector>
 
@@ -85,26 +87,16 @@ class Surface_growing {
         vertex_mark_(corners.number_of_vertices(), 0),
         region_of_face_(graph.number_of_faces(), none) {}
 
-  /// Estimates the tolerance from what neighbourhoods of faces leave unexplained.
+  /// Estimates the tolerance from what neighbourhoods of faces leave unexplained: those that are as round as can be, and
+  /// those that avoid edges, which stay on one surface where that is narrow.
   /// \param exactness the least distance that counts
   Surface_tolerance estimate_tolerance(double exactness) {
-    constexpr std::size_t trials = 400, vertices = 12;
-    constexpr double quantile = 0.02;  // most neighbourhoods of a coarse mesh lie on several surfaces
-    std::vector<double> deviations;
-    const std::size_t faces = graph_.number_of_faces();
-    for (std::size_t f = 0; f < faces; f += std::max<std::size_t>(1, faces / trials)) {
-      const Patch patch = neighbourhood(static_cast<Index>(f), vertices);
-      const double deviation = least_deviation(patch);
-      if (std::isfinite(deviation)) deviations.push_back(deviation);
-    }
-    double noise = 0;
-    if (!deviations.empty()) {
-      const auto place =
-          deviations.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(deviations.size()));
-      std::nth_element(deviations.begin(), place, deviations.end());
-      noise = 2.5 * *place;  // a low quantile of the best of five
-    }
-    return surface_tolerance(geometry_, corners_, exactness, noise);
+    constexpr std::size_t vertices = 12;
+    constexpr double correction = 2.5;  // a low quantile of the best of five
+    const double deviation = least_quantile([&](Index f) { return neighbourhood(f, vertices); });
+    const double along = least_quantile([&](Index f) { return flattest_neighbourhood(f, vertices); });
+    const bool is_exact = correction * along <= exactness;
+    return surface_tolerance(geometry_, corners_, exactness, is_exact ? 0 : correction * deviation);
   }
 
   /// Grows all regions. Faces of the remainder have the region `none`.
@@ -115,17 +107,18 @@ class Surface_growing {
     std::stable_sort(order.begin(), order.end(),
                      [&](Index f, Index g) { return geometry_.area[f] > geometry_.area[g]; });
     // By chance, noisy vertices lie on a surface that was fitted to few of them.
-    const std::vector<double> least_gains =
-        tolerance.noise > 0 ? std::vector<double>{64, 24} : std::vector<double>{64, 12, 3};
-    for (std::size_t pass = 0; pass < least_gains.size(); ++pass)
+    const std::vector<Pass> passes = tolerance.noise > 0
+                                         ? std::vector<Pass>{{64, false}, {24, false}}
+                                         : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, true}};
+    for (std::size_t k = 0; k < passes.size(); ++k)
       for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1000 == 0)
-          progress((static_cast<double>(pass) + static_cast<double>(i) / static_cast<double>(order.size())) /
-                   static_cast<double>(least_gains.size()));
+          progress((static_cast<double>(k) + static_cast<double>(i) / static_cast<double>(order.size())) /
+                   static_cast<double>(passes.size()));
         const Index seed = order[i];
         if (region_of_face_[seed] != none || geometry_.normal[seed].isZero()) continue;
-        const Region region = best_region(seed, least_gains[pass]);
-        if (region.gain < least_gains[pass]) continue;
+        const Region region = best_region(seed, passes[k]);
+        if (region.gain < passes[k].least_gain) continue;
         for (const Index f : region.patch.faces) region_of_face_[f] = surfaces_.size();
         surfaces_.push_back(region.surface);
       }
@@ -171,6 +164,12 @@ class Surface_growing {
     Patch patch;
     Analytic_surface surface;
     double gain = -std::numeric_limits<double>::infinity();
+  };
+
+  /// Which regions are taken: those that gain enough, about round neighbourhoods or along narrow ones, too.
+  struct Pass {
+    double least_gain;
+    bool along_strips;
   };
 
   // ---- Patches ----
@@ -223,6 +222,43 @@ class Surface_growing {
       samples_.normals.push_back(geometry_.normal[f]);
     }
     return samples_;
+  }
+
+  /// As above, but across the flattest edges first.
+  Patch flattest_neighbourhood(Index seed, std::size_t vertices) {
+    using Way = std::pair<double, Index>;  // its edge's angle, and where it leads
+    std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
+    Patch patch;
+    start_patch(patch);
+    ways.emplace(0, seed);
+    while (!ways.empty() && patch.vertices.size() < vertices) {
+      const Index f = ways.top().second;
+      ways.pop();
+      if (face_mark_[f] == mark_) continue;
+      add(patch, f);
+      for (const auto& [g, e] : graph_.neighbours(f))
+        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_sharp(e)) ways.emplace(angle_[e], g);
+    }
+    return patch;
+  }
+
+  /// A low quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh;
+  /// 0 if there are none.
+  template <class Neighbourhood>
+  double least_quantile(const Neighbourhood& neighbourhood_of) {
+    constexpr std::size_t trials = 400;
+    constexpr double quantile = 0.02;
+    std::vector<double> deviations;
+    const std::size_t faces = graph_.number_of_faces();
+    for (std::size_t f = 0; f < faces; f += std::max<std::size_t>(1, faces / trials)) {
+      const double deviation = least_deviation(neighbourhood_of(static_cast<Index>(f)));
+      if (std::isfinite(deviation)) deviations.push_back(deviation);
+    }
+    if (deviations.empty()) return 0;
+    const auto place =
+        deviations.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(deviations.size()));
+    std::nth_element(deviations.begin(), place, deviations.end());
+    return *place;
   }
 
   double least_deviation(const Patch& patch) {
@@ -316,24 +352,30 @@ class Surface_growing {
     return sum;
   }
 
-  /// The region about a face that explains most; a more complex surface must explain noticeably more.
-  Region best_region(Index seed, double least_gain) {
+  /// The region about a face that explains most.
+  Region best_region(Index seed, const Pass& pass) {
+    const double least_gain = pass.least_gain;
     const std::size_t smallest = tolerance_->noise > 0 ? 18 : 12;
-    const std::array<std::size_t, 2> sizes = {smallest, 3 * smallest};
     Region best;
-    for (const std::size_t size : sizes) {
+    for (const std::size_t size : {smallest, 3 * smallest}) {
       const Patch start = neighbourhood(seed, size);
-      for (const Surface_type type : analytic_types) {
-        if (type != Surface_type::plane &&
-            start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + 2)
-          break;
-        Region region = region_of_type(type, seed, start);
-        if (region.gain > (best.gain > 0 ? 1.05 * best.gain + 2 : best.gain)) best = std::move(region);
-        if (type == Surface_type::plane && best.gain >= least_gain && ends_at_sharp_edges(best.patch)) return best;
-      }
-      if (best.gain >= least_gain || start.vertices.size() < size) break;
+      improve(best, seed, start, least_gain);
+      if (best.gain >= least_gain) return best;
+      if (start.vertices.size() < size) break;
     }
+    if (pass.along_strips) improve(best, seed, flattest_neighbourhood(seed, smallest), least_gain);
     return best;
+  }
+
+  /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
+  void improve(Region& best, Index seed, const Patch& start, double least_gain) {
+    for (const Surface_type type : analytic_types) {
+      if (type != Surface_type::plane && start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + 2)
+        return;
+      Region region = region_of_type(type, seed, start);
+      if (region.gain > (best.gain > 0 ? 1.05 * best.gain + 2 : best.gain)) best = std::move(region);
+      if (type == Surface_type::plane && best.gain >= least_gain && ends_at_sharp_edges(best.patch)) return;
+    }
   }
 
   bool ends_at_sharp_edges(const Patch& patch) {
