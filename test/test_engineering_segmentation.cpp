@@ -100,26 +100,28 @@ TEST(EngineeringSegmentation, FindsTheFacesOfSolidsAsAKernelMeshesThem) {
     expect_every_face_found(solid);
 }
 
-TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFillets) {
-  // No round neighbourhood of twelve vertices lies on one surface. The radii alternate: four lines of a plane and two
-  // like fillets lie on one cylinder.
-  solids::Builder builder("square tube with rounded edges");
-  constexpr double width = 0.3, length = 6;
+TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFreeForms) {
+  // No round neighbourhood of twelve vertices lies on one surface.
+  solids::Builder builder("square tube with fillets of varying radius");
+  constexpr double half = 0.45, length = 6;
   constexpr std::size_t around_fillet = 3, along = 20;
+  const auto radius = [](double v) { return 0.3 + 0.04 * std::sin(9 * v) + 0.03 * std::sin(23 * v); };
   const solids::Point up = length * solids::Point::UnitZ();
-  solids::Point corner = solids::Point::Zero();
   for (int side = 0; side < 4; ++side) {
-    const double angle = side * solids::pi / 2, radius = side % 2 == 0 ? 0.3 : 0.2;
+    const double angle = side * solids::pi / 2;
     const solids::Point out(std::cos(angle), std::sin(angle), 0), left(-out.y(), out.x(), 0);
-    const solids::Point begin = corner, end = begin + width * left, centre = end - radius * out;
-    builder.grid(builder.add(solids::plane(begin, out)), 1, along,
-                 [=](double u, double v) -> solids::Point { return begin + u * width * left + v * up; });
-    const auto fillet = solids::arc(centre, radius * out, radius * left, 0, solids::pi / 2);
-    builder.grid(builder.add(solids::cylinder(centre, solids::Point::UnitZ(), radius)), around_fillet, along,
-                 [=](double u, double v) -> solids::Point { return fillet(u) + v * up; });
-    corner = fillet(1);
+    builder.grid(builder.add(solids::plane(half * out, out)), 1, along, [=](double u, double v) -> solids::Point {
+      return half * out + (2 * u - 1) * (half - radius(v)) * left + v * up;
+    });
+    builder.grid(builder.add({}), around_fillet, along, [=](double u, double v) -> solids::Point {
+      const double r = radius(v), turn = u * solids::pi / 2;
+      return (half - r) * (out + left) + r * (std::cos(turn) * out + std::sin(turn) * left) + v * up;
+    });
   }
-  expect_every_face_found(std::move(builder).solid());
+  const solids::Solid tube = std::move(builder).solid();
+  const std::vector<double> overlaps = best_overlaps(tube, segments_of(tube));
+  ASSERT_EQ(overlaps.size(), 8u);
+  for (std::size_t plane = 0; plane < 8; plane += 2) EXPECT_GE(overlaps[plane], 0.9);
 }
 
 TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
