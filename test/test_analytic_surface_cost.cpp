@@ -85,6 +85,17 @@ TEST(EdgeSharpness, RefusesNoiseThatIsNoNumber) {
 
 // ---- The noise of the vertices ----
 
+TEST(SurfaceTolerance, EstimatesTheNoiseOfTheVertices) {
+  for (const solids::Solid& clean : solids::all(solids::even(0.1)))
+    for (const double percent : {0., 0.1, 0.3}) {
+      SCOPED_TRACE(clean.name);
+      const Surface_mesh mesh = meshes::surface_mesh(shape_of(solids::with_noise(clean, percent)));
+      const auto data =
+          internal::surface_data(mesh, Mesh_dual_graph<Surface_mesh>(mesh), -1, CGAL::parameters::default_values());
+      EXPECT_NEAR(data.tolerance->noise, percent / 100, 0.25 * percent / 100);
+    }
+}
+
 TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
     const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));

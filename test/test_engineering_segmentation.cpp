@@ -125,19 +125,22 @@ TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFreeForms) {
 }
 
 TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
-  double error = 0, found = 0, faces = 0, solids = 0;
-  for (const solids::Solid& clean : solids::all(solids::even(0.1))) {
-    const solids::Solid solid = solids::with_noise(clean, 0.1);
-    const Labels segments = segments_of(solid);
-    error += rand_error(segments, solid.label);
-    ++solids;
-    for (const double overlap : best_overlaps(solid, segments)) {
-      found += overlap >= 0.75;
-      ++faces;
+  for (const solids::Meshing& meshing : {solids::even(0.1), solids::by_kernel()}) {
+    double error = 0, found = 0, faces = 0, solids = 0;
+    for (const solids::Solid& clean : solids::all(meshing)) {
+      const solids::Solid solid = solids::with_noise(clean, 0.1);
+      const Labels segments = segments_of(solid);
+      error += rand_error(segments, solid.label);
+      ++solids;
+      for (const double overlap : best_overlaps(solid, segments)) {
+        found += overlap >= 0.75;
+        ++faces;
+      }
     }
+    SCOPED_TRACE(meshing.is_even ? "even" : "by a kernel");
+    EXPECT_LE(error / solids, 0.06);
+    EXPECT_GE(found / faces, 0.8);
   }
-  EXPECT_LE(error / solids, 0.06);
-  EXPECT_GE(found / faces, 0.8);
 }
 
 TEST(EngineeringSegmentation, CutsACubeIntoSix) {
@@ -233,6 +236,39 @@ TEST(RegionFragments, GiveASingleFaceToTheRegionAboutIt) {
   const Fragments fragments = fragments_of(meshes::plane(4), regions);
   EXPECT_EQ(number_of(fragments.of_face), 1u);
   EXPECT_EQ(fragments.given_faces, std::vector<std::size_t>{13});
+}
+
+// ---- Faces cut into small triangles ----
+
+TEST(FaceRefinement, KeepsTheSurfaceAndEndsAtTheLongestSide) {
+  constexpr double longest_side = 0.05;
+  for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
+    SCOPED_TRACE(solid.name);
+    const auto mesh = meshes::surface_mesh(shape_of(solid));
+    const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
+    const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
+    const internal::Face_refinement refinement(graph, *data.corners, longest_side);
+    std::vector<double> area(graph.number_of_faces(), 0);
+    for (std::size_t t = 0; t < refinement.triangles().size(); ++t) {
+      const auto& triangle = refinement.triangles()[t];
+      const Eigen::Vector3d &a = refinement.points()[triangle[0]], &b = refinement.points()[triangle[1]],
+                            &c = refinement.points()[triangle[2]];
+      for (const double side : {(b - a).norm(), (c - b).norm(), (a - c).norm()}) EXPECT_LE(side, longest_side);
+      area[refinement.faces()[t]] += (b - a).cross(c - a).dot(data.geometry->normal[refinement.faces()[t]]) / 2;
+    }
+    for (std::size_t f = 0; f < area.size(); ++f) EXPECT_NEAR(area[f], data.geometry->area[f], 1e-12);
+    EXPECT_EQ(2 * refinement.edges().first.size(), 3 * refinement.triangles().size());  // closed
+  }
+}
+
+TEST(FaceRefinement, LeavesSmallFacesAlone) {
+  const meshes::Shape shape = meshes::cube(3);
+  const auto mesh = meshes::surface_mesh(shape);
+  const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
+  const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
+  const internal::Face_refinement refinement(graph, *data.corners, 1);
+  EXPECT_EQ(refinement.points().size(), shape.points.size());
+  EXPECT_EQ(refinement.triangles().size(), shape.faces.size());
 }
 
 // ---- The surfaces of the segments ----

@@ -12,6 +12,7 @@
 #include <RW_segmentation/internal/Graph_walk.h>
 #include <RW_segmentation/internal/Region_fragments.h>
 #include <RW_segmentation/internal/Surface_growing.h>
+#include <RW_segmentation/internal/analytic_regions.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
@@ -97,18 +98,17 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
 
   std::vector<char> is_barrier;
   for (const double conductance : conductances) is_barrier.push_back(conductance == 0);
-  internal::Surface_growing growing(graph, *data.geometry, *data.corners, is_barrier);
-  growing.grow(*data.tolerance, progress.part(0.1, 0.8));
-  growing.settle_borders();
+  const internal::Analytic_regions regions = internal::analytic_regions(
+      graph, *data.geometry, *data.corners, *data.tolerance, is_barrier, progress.part(0.1, 0.8));
   clock.note("surfaces");
 
-  internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, growing.angles(),
-                                       conductances);
-  std::vector<std::size_t> fragment_of_face = fragments.fragments(growing.region_of_face(), progress.part(0.8, 0.85));
+  const std::vector<double> angles = internal::edge_angles(graph, *data.geometry);
+  internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, angles, conductances);
+  std::vector<std::size_t> fragment_of_face = fragments.fragments(regions.region_of_face, progress.part(0.8, 0.85));
   clock.note("walk");
 
   report.components = internal::components(graph, conductances).count;
-  report.seeds = growing.surfaces().size();
+  report.seeds = regions.count;
   report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
   report.degenerate_faces = data.geometry->degenerate_faces;
   const auto cost = data.formula(80);

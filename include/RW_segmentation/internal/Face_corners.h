@@ -8,8 +8,9 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -44,6 +45,15 @@ class Face_corners {
         corners_.push_back(number[target(h, mesh)]);
         h = next(h, mesh);
       } while (h != first);
+      row_.push_back(corners_.size());
+    }
+  }
+
+  /// Those of triangles.
+  Face_corners(std::vector<Eigen::Vector3d> points, const std::vector<std::array<Index, 3>>& triangles)
+      : points_(std::move(points)) {
+    for (const auto& triangle : triangles) {
+      corners_.insert(corners_.end(), triangle.begin(), triangle.end());
       row_.push_back(corners_.size());
     }
   }

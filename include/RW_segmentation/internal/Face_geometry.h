@@ -45,6 +45,9 @@ struct Face_geometry {
     for (const double length : edge_length) sum += length;
     return edge_length.empty() ? 0 : sum / static_cast<double>(edge_length.size());
   }
+  double longest_edge() const {
+    return edge_length.empty() ? 0 : *std::max_element(edge_length.begin(), edge_length.end());
+  }
 };
 
 /// The vertex points of a mesh as Eigen vectors.

@@ -29,8 +29,8 @@ struct Surface_tolerance {
   double distance = 0;               ///< the standard deviation that is reckoned with
   std::vector<double> normal_angle;  ///< between a face and the surface that it is part of, in radians
 
-  /// Three deviations: what a vertex is allowed.
-  double largest_distance() const { return 3 * distance; }
+  /// What a vertex is allowed: three deviations, or less under noise, which would hide smooth joints otherwise.
+  double largest_distance() const { return (noise > 0 ? 2.25 : 3) * distance; }
 
   /// The angle between two faces that no analytic surface and no noise explains.
   double sharp_angle(const std::array<Dual_graph::Index, 2>& faces) const {
@@ -87,16 +87,18 @@ class Surface_growing {
         vertex_mark_(corners.number_of_vertices(), 0),
         region_of_face_(graph.number_of_faces(), none) {}
 
-  /// Estimates the tolerance from what neighbourhoods of faces leave unexplained: those that are as round as can be, and
-  /// those that avoid edges, which stay on one surface where that is narrow.
+  /// Estimates the tolerance from what neighbourhoods of faces leave unexplained. Without noise some small ones lie on a
+  /// surface exactly, if they avoid edges, even on a coarse mesh. Under noise none does, and larger ones vary less.
   /// \param exactness the least distance that counts
   Surface_tolerance estimate_tolerance(double exactness) {
-    constexpr std::size_t vertices = 12;
-    constexpr double correction = 2.5;  // a low quantile of the best of five
-    const double deviation = least_quantile([&](Index f) { return neighbourhood(f, vertices); });
-    const double along = least_quantile([&](Index f) { return flattest_neighbourhood(f, vertices); });
-    const bool is_exact = correction * along <= exactness;
-    return surface_tolerance(geometry_, corners_, exactness, is_exact ? 0 : correction * deviation);
+    constexpr std::size_t few_vertices = 12, many_vertices = 30;
+    constexpr double correction_of_few = 2.5, correction_of_many = 1.25;  // a low quantile of the best of five
+    const double few = std::min(quantile(0.02, [&](Index f) { return neighbourhood(f, few_vertices); }),
+                                quantile(0.02, [&](Index f) { return flattest_neighbourhood(f, few_vertices); }));
+    const double noise = correction_of_few * few <= exactness ? 0 : correction_of_many * quantile(0.05, [&](Index f) {
+                                                                      return neighbourhood(f, many_vertices);
+                                                                    });
+    return surface_tolerance(geometry_, corners_, exactness, noise);
   }
 
   /// Grows all regions. Faces of the remainder have the region `none`.
@@ -106,10 +108,13 @@ class Surface_growing {
     std::iota(order.begin(), order.end(), Index(0));
     std::stable_sort(order.begin(), order.end(),
                      [&](Index f, Index g) { return geometry_.area[f] > geometry_.area[g]; });
-    // By chance, noisy vertices lie on a surface that was fitted to few of them.
-    const std::vector<Pass> passes = tolerance.noise > 0
-                                         ? std::vector<Pass>{{64, false}, {24, false}}
-                                         : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, true}};
+    // By chance, noisy vertices lie on a surface that was fitted to few of them, and pieces of a large surface on
+    // others: the largest come first.
+    const bool is_noisy = tolerance.noise > 0;
+    const std::vector<Pass> passes =
+        is_noisy ? std::vector<Pass>{{1000, false}, {400, false}, {160, false}, {64, false}, {24, false}}
+                 : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, true}};
+    possible_gain_.assign(graph_.number_of_faces(), std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1000 == 0)
@@ -117,37 +122,35 @@ class Surface_growing {
                    static_cast<double>(passes.size()));
         const Index seed = order[i];
         if (region_of_face_[seed] != none || geometry_.normal[seed].isZero()) continue;
+        if (possible_gain_[seed] < passes[k].least_gain) continue;
         const Region region = best_region(seed, passes[k]);
-        if (region.gain < passes[k].least_gain) continue;
+        if (region.gain < passes[k].least_gain) {
+          if (is_noisy) expect_no_more(seed, region);
+          continue;
+        }
         for (const Index f : region.patch.faces) region_of_face_[f] = surfaces_.size();
         surfaces_.push_back(region.surface);
       }
   }
 
-  /// Moves faces at the borders of regions to the neighbour whose surface they fit best. Faces of the remainder join a
-  /// region that they fit.
+  /// Moves faces at the borders of regions to the neighbour whose surface they fit best, and lets faces of the
+  /// remainder join a region that they fit. Under noise a face alone cannot tell: short borders count, too, and
+  /// surfaces are fitted again to what they have become.
   void settle_borders() {
-    constexpr int most_sweeps = 4;
-    const std::vector<double> sign = signs();
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      std::size_t moved = 0;
-      for (Index f = 0; f < graph_.number_of_faces(); ++f) {
-        const std::size_t own = region_of_face_[f];
-        std::size_t best = own;
-        double least = own == none ? 2 : misfit(own, sign[own], f);
-        for (const auto& [g, e] : graph_.neighbours(f)) {
-          const std::size_t other = region_of_face_[g];
-          if (other == none || other == own || other == best || is_barrier_[e]) continue;
-          const double d = misfit(other, sign[other], f);
-          if (d < least - 1e-3) {
-            least = d;
-            best = other;
-          }
-        }
-        moved += best != own;
-        region_of_face_[f] = best;
-      }
-      if (moved == 0) break;
+    constexpr int exact_sweeps = 4, noisy_sweeps = 6, rounds = 4;
+    if (tolerance_->noise == 0) {
+      const std::vector<double> sign = signs();
+      move_faces(exact_sweeps,
+                 [&](Index f, std::size_t region) { return region == none ? 2 : misfit(region, sign[region], f); });
+      return;
+    }
+    for (int round = 0; round < rounds; ++round) {
+      fit_again();
+      const std::vector<double> sign = signs();
+      const bool has_moved = move_faces(noisy_sweeps, [&](Index f, std::size_t region) {
+        return border_energy(region, f) + (region == none ? unexplained_energy : energy(region, sign[region], f));
+      });
+      if (!has_moved) break;
     }
   }
 
@@ -242,12 +245,11 @@ class Surface_growing {
     return patch;
   }
 
-  /// A low quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh;
-  /// 0 if there are none.
+  /// A quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh; 0 if
+  /// there are none.
   template <class Neighbourhood>
-  double least_quantile(const Neighbourhood& neighbourhood_of) {
+  double quantile(double part, const Neighbourhood& neighbourhood_of) {
     constexpr std::size_t trials = 400;
-    constexpr double quantile = 0.02;
     std::vector<double> deviations;
     const std::size_t faces = graph_.number_of_faces();
     for (std::size_t f = 0; f < faces; f += std::max<std::size_t>(1, faces / trials)) {
@@ -255,8 +257,7 @@ class Surface_growing {
       if (std::isfinite(deviation)) deviations.push_back(deviation);
     }
     if (deviations.empty()) return 0;
-    const auto place =
-        deviations.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(deviations.size()));
+    const auto place = deviations.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(deviations.size()));
     std::nth_element(deviations.begin(), place, deviations.end());
     return *place;
   }
@@ -354,17 +355,26 @@ class Surface_growing {
 
   /// The region about a face that explains most.
   Region best_region(Index seed, const Pass& pass) {
-    const double least_gain = pass.least_gain;
-    const std::size_t smallest = tolerance_->noise > 0 ? 18 : 12;
+    const bool is_noisy = tolerance_->noise > 0;  // few vertices mislead then: all sizes are tried
+    const std::vector<std::size_t> sizes =
+        is_noisy ? std::vector<std::size_t>{18, 54, 162} : std::vector<std::size_t>{12, 36};
     Region best;
-    for (const std::size_t size : {smallest, 3 * smallest}) {
+    for (const std::size_t size : sizes) {
       const Patch start = neighbourhood(seed, size);
-      improve(best, seed, start, least_gain);
-      if (best.gain >= least_gain) return best;
+      improve(best, seed, start, pass.least_gain);
+      if (best.gain >= pass.least_gain && !is_noisy) return best;
       if (start.vertices.size() < size) break;
     }
-    if (pass.along_strips) improve(best, seed, flattest_neighbourhood(seed, smallest), least_gain);
+    if (pass.along_strips) improve(best, seed, flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
     return best;
+  }
+
+  /// Other faces of a region that gained too little would hardly gain more.
+  void expect_no_more(Index seed, const Region& region) {
+    constexpr double hardly = 1.3;
+    const double gain = hardly * std::max(region.gain, 0.);
+    possible_gain_[seed] = gain;
+    for (const Index f : region.patch.faces) possible_gain_[f] = std::min(possible_gain_[f], gain);
   }
 
   /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
@@ -411,6 +421,84 @@ class Surface_growing {
     return farthest / tolerance_->largest_distance() + angle / tolerance_->normal_angle[f];
   }
 
+  // ---- Borders ----
+
+  /// Moves each face to the region of a neighbour where it costs least, again and again.
+  /// \param cost of a face, in a region or none
+  template <class Cost>
+  bool move_faces(int most_sweeps, const Cost& cost) {
+    bool has_moved = false;
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      bool moves = false;
+      for (Index f = 0; f < graph_.number_of_faces(); ++f) {
+        const std::size_t own = region_of_face_[f];
+        std::size_t best = own;
+        double least = cost(f, own);
+        for (const auto& [g, e] : graph_.neighbours(f)) {
+          const std::size_t other = region_of_face_[g];
+          if (other == none || other == own || other == best || is_barrier_[e]) continue;
+          const double d = cost(f, other);
+          if (d < least - 1e-3) {
+            least = d;
+            best = other;
+          }
+        }
+        moves |= best != own;
+        region_of_face_[f] = best;
+      }
+      if (!moves) break;
+      has_moved = true;
+    }
+    return has_moved;
+  }
+
+  /// Fits each surface to its region.
+  void fit_again() {
+    constexpr std::size_t enough = 12;
+    std::vector<std::vector<Index>> faces(surfaces_.size());
+    for (Index f = 0; f < graph_.number_of_faces(); ++f)
+      if (region_of_face_[f] != none) faces[region_of_face_[f]].push_back(f);
+    Patch patch;
+    for (std::size_t region = 0; region < surfaces_.size(); ++region) {
+      start_patch(patch);
+      for (const Index f : faces[region]) add(patch, f);
+      if (patch.vertices.size() < enough) continue;
+      Analytic_surface& surface = surfaces_[region];
+      const Surface_samples& samples = samples_of(patch);
+      const auto fitted = surface.type == Surface_type::plane ? fit_analytic_surface(surface.type, samples)
+                                                              : Least_squares_surface(surface, samples.points).fit();
+      if (fitted) surface = *fitted;
+    }
+  }
+
+  static constexpr double unexplained_energy = 3;
+
+  /// How unlikely it is that noise puts a face where it is: the data term of a Potts model.
+  double energy(std::size_t region, double sign, Index f) const {
+    constexpr double most_squares = 30;  // an outlier is no worse than that
+    const Analytic_surface& surface = surfaces_[region];
+    double distances = 0, angle = 0;
+    for (const Index v : corners_[f]) {
+      const double distance = surface.signed_distance(corners_.point(v)) / tolerance_->distance;
+      distances += distance * distance;
+    }
+    if (!geometry_.normal[f].isZero()) {
+      const double cosine = sign * surface.normal(geometry_.centroid[f]).dot(geometry_.normal[f]);
+      angle = 3 * std::acos(std::clamp(cosine, -1., 1.)) / tolerance_->normal_angle[f];
+    }
+    return std::min(distances, most_squares) / 4 + std::min(angle * angle, most_squares) / 2;
+  }
+
+  /// The length of the border of a face in a region, in mean lengths of its edges.
+  double border_energy(std::size_t region, Index f) const {
+    double border = 0, all = 0;
+    for (const auto& [g, e] : graph_.neighbours(f)) {
+      all += geometry_.edge_length[e];
+      if (region_of_face_[g] != region) border += geometry_.edge_length[e];
+    }
+    return all > 0 ? 3 * border / all : 0;
+  }
+
   const Dual_graph& graph_;
   const Face_geometry& geometry_;
   const Face_corners& corners_;
@@ -422,6 +510,7 @@ class Surface_growing {
   Surface_samples samples_;
   std::vector<std::size_t> region_of_face_;
   std::vector<Analytic_surface> surfaces_;  // of each region
+  std::vector<double> possible_gain_;       // of a region about each face, as far as is known
 };
 
 }  // namespace RW_segmentation::internal
