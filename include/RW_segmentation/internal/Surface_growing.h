@@ -113,7 +113,7 @@ class Surface_growing {
     const bool is_noisy = tolerance.noise > 0;
     const std::vector<Pass> passes =
         is_noisy ? std::vector<Pass>{{1000, false}, {400, false}, {160, false}, {64, false}, {24, false}}
-                 : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, true}};
+                 : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, false}};
     possible_gain_.assign(graph_.number_of_faces(), std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (std::size_t i = 0; i < order.size(); ++i) {
