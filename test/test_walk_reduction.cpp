@@ -195,6 +195,13 @@ TEST(WalkReduction, KeepsGivenSeedsComponentsAndConstrainedEdges) {
   }
 }
 
+TEST(WalkReduction, ClustersGrowWithLargeMeshesAlone) {
+  const Walk_reduction reduction;
+  EXPECT_EQ(internal::cluster_steps(10, reduction), reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(2500000, reduction), reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(10000000, reduction), 2 * reduction.cluster_steps);
+}
+
 TEST(WalkReduction, AMeshOfFewFacesIsSegmentedToo) {
   const auto mesh = meshes::surface_mesh(meshes::cube());
   EXPECT_EQ(segmented(mesh, reduced(1)).ids.size(), 12u);

@@ -8,16 +8,17 @@
 
 namespace RW_segmentation {
 
-/// How the walk on a large mesh is reduced (section 3.2 of the paper): seeds are spread over clusters of faces and walks
-/// run over these; then the faces along the boundaries are walked on again, each for itself.
+/// How the walk on a large mesh is reduced (section 3.2 of the paper): walks from the seeds run over clusters of faces, and
+/// then once more over the faces along the boundaries.
 ///
-/// Normals, differences and merging are those of the faces in any case. Time then grows with the number of faces, not
-/// with its power 1.2, and memory is a third.
+/// Normals, differences, seeds, thickness and merging are those of the faces in any case. Clusters are fine around the
+/// seeds. Time then grows with about the power 1.1 of the number of faces, and memory is half as much.
 struct Walk_reduction {
   /// Walks run over the faces of meshes with up to so many; 0 reduces every walk.
   std::size_t largest_direct = 2500000;
-  /// The least distance between the roots of two clusters, in steps from face to face: 3 steps make clusters of about 16
-  /// triangles, 5 of about 40.
+  /// The least distance between the roots of two clusters, in steps from face to face, on meshes of up to 2.5 million
+  /// faces; grows with the square root of their number from there on, so that the number of clusters does not. With 3
+  /// steps a cluster has about 5 triangles.
   std::size_t cluster_steps = 3;
   /// The largest d / sigma of an edge within a cluster: no cluster reaches over a larger one.
   double largest_difference = 2;

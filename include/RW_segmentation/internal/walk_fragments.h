@@ -9,6 +9,7 @@
 #include <RW_segmentation/internal/Graph_walk.h>
 #include <RW_segmentation/internal/settle_band.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -51,6 +52,13 @@ inline Fragments walk_fragments(const Walk_network& network, Star_mesh_eliminati
   return {std::move(labels), report.island_faces};
 }
 
+/// The least distance between the roots of clusters. Clusters of larger meshes hold more faces, lest their number grow.
+inline std::size_t cluster_steps(std::size_t faces, const Walk_reduction& reduction) {
+  constexpr double large = 2.5e6;
+  const double growth = std::sqrt(std::max(1., static_cast<double>(faces) / large));
+  return static_cast<std::size_t>(std::llround(growth * static_cast<double>(reduction.cluster_steps)));
+}
+
 /// Clusters for a walk from seeds. They are fine where a walk begins, since a wide seed would be met too often: the faces
 /// around a seed are clusters by themselves, those of the seeds the first ones.
 inline Face_clusters clusters_around(const std::vector<Dual_graph::Index>& seeds, const Walk_network& network,
@@ -63,8 +71,9 @@ inline Face_clusters clusters_around(const std::vector<Dual_graph::Index>& seeds
     is_crossed.push_back(conductance > 0 && conductance >= least * edge_length[e]);
   }
   std::vector<Dual_graph::Index> alone = seeds;
-  add_surroundings(network.graph, reduction.cluster_steps, alone);
-  return Face_clusters(network.graph, network.conductances, is_crossed, reduction.cluster_steps, alone);
+  const std::size_t steps = cluster_steps(network.graph.number_of_faces(), reduction);
+  add_surroundings(network.graph, steps, alone);
+  return Face_clusters(network.graph, network.conductances, is_crossed, steps, alone);
 }
 
 /// The fragments that walks over clusters of faces make, with the faces along their boundaries walked on again.
