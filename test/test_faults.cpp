@@ -8,6 +8,7 @@
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
+#include <RW_segmentation/transfer_segments.h>
 
 #include <boost/property_map/function_property_map.hpp>
 
@@ -104,6 +105,22 @@ struct Faults : testing::Test {
 
 TEST_F(Faults, SegmentationThatRunsOutOfMemoryWritesNothing) {
   for_every_allocation([&] { segmentation_via_random_walks(mesh, labels.map()); }, [&] { expect_untouched(); });
+}
+
+TEST_F(Faults, ReducedSegmentationThatRunsOutOfMemoryWritesNothing) {
+  Automatic_segmentation reduced;
+  reduced.reduction.largest_direct = 0;
+  for_every_allocation([&] { segmentation_via_random_walks(mesh, labels.map(), reduced); },
+                       [&] { expect_untouched(); });
+}
+
+TEST_F(Faults, TransferThatRunsOutOfMemoryWritesNothing) {
+  const Surface_mesh half = meshes::surface_mesh(meshes::cube(2));
+  Face_labels<Surface_mesh> sides(half);
+  for (std::size_t f = 0; f < num_faces(half); ++f) put(sides.map(), sides.face(f), f % 3);
+  const Conductance conductance(mesh, Dihedral_difference(mesh));
+  for_every_allocation([&] { transfer_segments(half, sides.map(), mesh, conductance, labels.map()); },
+                       [&] { expect_untouched(); });
 }
 
 TEST_F(Faults, EngineeringSegmentationThatRunsOutOfMemoryWritesNothing) {
