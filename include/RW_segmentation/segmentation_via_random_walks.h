@@ -310,7 +310,9 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
 /// chance or on the number of threads, and not on the mesh's position and size.
 ///
 /// Complexity: that of the walk, O(m^1.3) time and O(m log m) memory for m faces in practice; see
-/// `Star_mesh_elimination`. Where TBB is linked (`CGAL_LINKED_WITH_TBB`), its threads share the work.
+/// `Star_mesh_elimination`. The walk of large meshes is reduced, which takes about O(m^1.1) time and O(m) memory; see
+/// `Walk_reduction`. Where TBB is linked (`CGAL_LINKED_WITH_TBB`), its threads share the work, and read the property maps
+/// at the same time.
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 /// \tparam SegmentIdMap a writable property map from `face_descriptor` to `std::size_t`
