@@ -9,6 +9,7 @@
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/internal/Edge_values.h>
 #include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/read_segments.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -229,18 +230,6 @@ std::vector<typename MergeCost::Region> join_faces(const std::vector<std::size_t
   return regions;
 }
 
-/// Replaces arbitrary labels by their ranks, 0, 1, ...; returns how many there are.
-template <class Label>
-std::size_t rank_labels(const std::vector<Label>& labels, std::vector<std::size_t>& rank) {
-  std::vector<Label> sorted = labels;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  rank.clear();
-  for (const Label& label : labels)
-    rank.push_back(static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), label) - sorted.begin()));
-  return sorted.size();
-}
-
 }  // namespace internal
 
 /// Merges the segments of a mesh pairwise, always the two neighbours that cost least, until each connected component is
@@ -292,7 +281,7 @@ Segment_hierarchy<FaceListGraph> merge_segments(const FaceListGraph& mesh, const
   ids.reserve(graph.number_of_faces());
   for (const face_descriptor f : graph.face_descriptors()) ids.push_back(get(segment_ids, f));
   std::vector<std::size_t> fragment_of_face;
-  const std::size_t fragments = internal::rank_labels(ids, fragment_of_face);
+  const std::size_t fragments = internal::rank_labels(ids, fragment_of_face).size();
 
   Merge_tree tree = internal::merge_fragments(
       graph, fragment_of_face,

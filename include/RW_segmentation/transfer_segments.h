@@ -58,18 +58,6 @@ inline std::vector<Dual_graph::Index> closest_faces(const Face_geometry& geometr
   return closest;
 }
 
-/// Numbers different ids from 0 in ascending order.
-/// \returns the ids by their numbers
-inline std::vector<std::size_t> rank_ids(const std::vector<std::size_t>& ids, std::vector<std::size_t>& rank) {
-  std::vector<std::size_t> different = ids;
-  std::sort(different.begin(), different.end());
-  different.erase(std::unique(different.begin(), different.end()), different.end());
-  for (const std::size_t id : ids)
-    rank.push_back(
-        static_cast<std::size_t>(std::lower_bound(different.begin(), different.end(), id) - different.begin()));
-  return different;
-}
-
 /// Connected regions of faces with one label.
 inline Components regions_of(const Dual_graph& graph, const std::vector<std::size_t>& labels) {
   std::vector<double> joins(graph.number_of_edges());
@@ -188,7 +176,7 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
   const Mesh_dual_graph<ReducedMesh> reduced_graph(reduced);
   const std::vector<std::size_t> ids = internal::read_segments(reduced_graph, reduced_ids);
   std::vector<std::size_t> reduced_labels;
-  const std::vector<std::size_t> id_of_label = internal::rank_ids(ids, reduced_labels);
+  const std::vector<std::size_t> id_of_label = internal::rank_labels(ids, reduced_labels);
   const internal::Triangle_tree tree(internal::triangles_in_frame(reduced, reduced_graph, reduced_np, point));
   std::vector<std::size_t> labels;
   labels.reserve(graph.number_of_faces());

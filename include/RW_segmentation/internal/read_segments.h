@@ -7,6 +7,7 @@
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -23,6 +24,20 @@ std::vector<std::size_t> read_segments(const Mesh_dual_graph<FaceListGraph>& gra
   for (const face_descriptor f : graph.face_descriptors())
     segments.push_back(static_cast<std::size_t>(get(segment_ids, f)));
   return segments;
+}
+
+/// Numbers different labels from 0 in ascending order.
+/// \param rank output, the number of each label
+/// \returns the labels by their numbers
+template <class Label>
+std::vector<Label> rank_labels(const std::vector<Label>& labels, std::vector<std::size_t>& rank) {
+  std::vector<Label> sorted = labels;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  rank.clear();
+  for (const Label& label : labels)
+    rank.push_back(static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), label) - sorted.begin()));
+  return sorted;
 }
 
 }  // namespace RW_segmentation::internal
