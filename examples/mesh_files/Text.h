@@ -13,7 +13,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 namespace mesh_files {
@@ -37,19 +36,38 @@ inline bool is_word(std::string_view word, std::string_view lower_case) {
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; });
 }
 
+#ifdef __cpp_lib_to_chars
+/// Fails as `std::from_chars()` does, but gives what is too small or too large its limit, 0 or infinity.
+inline bool parse(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || error == std::errc::invalid_argument) return false;
+  // from_chars tells neither underflow from overflow nor their values.
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+  return true;
+}
+#else
+/// For standard libraries that lack `std::from_chars()` for `double`.
+inline bool parse(std::string_view word, double& value) {
+  if (word.empty() || word.front() == '+' || word.find_first_of("xX") != std::string_view::npos) return false;
+  const std::string digits(word);
+  char* end = nullptr;
+  value = std::strtod(digits.c_str(), &end);
+  return end == digits.c_str() + digits.size();
+}
+#endif
+
+template <class Integer>
+bool parse(std::string_view word, Integer& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return end == word.data() + word.size() && error == std::errc();
+}
+
 /// The number that a word spells, if it spells one: a `double`, which may be infinite or NaN, or an integer.
 template <class Number>
 std::optional<Number> number_in(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   Number value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size() || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range) {
-    if constexpr (!std::is_floating_point_v<Number>) return std::nullopt;
-    // from_chars tells neither underflow from overflow nor their values.
-    value = static_cast<Number>(std::strtod(std::string(word).c_str(), nullptr));
-  }
-  return value;
+  return parse(word, value) ? std::optional<Number>(value) : std::nullopt;
 }
 
 /// A text read line by line and word by word, which knows its place when something is wrong.

@@ -49,11 +49,11 @@ inline std::string read_content(const std::string& path) {
   return content;
 }
 
-/// Reads an OFF, PLY, OBJ or STL file. The content decides which it is; the extension does where the content has no
-/// mark of its own, as in OBJ files.
-/// \throws Unreadable_file if there is no such file, or it is broken, or promises more than it holds
-inline Polygon_soup read_mesh(const std::string& path) {
-  const std::string content = read_content(path);
+/// The mesh in an OFF, PLY, OBJ or STL file. The content decides which it is; the extension does where the content has
+/// no mark of its own, as in OBJ files.
+/// \param path for the extension and messages; nothing is read from there
+/// \throws Unreadable_file if the content is broken, or promises more than it holds
+inline Polygon_soup mesh_of_content(const std::string& path, const std::string& content) {
   const std::string extension = extension_of(path);
   if (std::all_of(content.begin(), content.end(), [](unsigned char c) { return std::isspace(c); }))
     throw Unreadable_file(path + ": the file is empty");
@@ -78,6 +78,10 @@ inline Polygon_soup read_mesh(const std::string& path) {
     throw Unreadable_file(path + ": more vertices or corners of faces than 32 bits can number");
   return soup;
 }
+
+/// Reads an OFF, PLY, OBJ or STL file, see `mesh_of_content()`.
+/// \throws Unreadable_file if there is no such file, too
+inline Polygon_soup read_mesh(const std::string& path) { return mesh_of_content(path, read_content(path)); }
 
 }  // namespace mesh_files
 

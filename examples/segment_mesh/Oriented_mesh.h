@@ -3,7 +3,7 @@
 
 // Uses box_intersection_d and Polygon_mesh_processing of CGAL, which is under the GPL.
 
-#include "../mesh_files.h"
+#include "../mesh_files/Polygon_soup.h"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>

@@ -1,0 +1,198 @@
+#ifndef BROWSER_ENGINE_SESSION_H
+#define BROWSER_ENGINE_SESSION_H
+
+#include "../../mesh_files/Polygon_soup.h"
+#include "../../segment_mesh/Oriented_mesh.h"
+
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/Segment_hierarchy.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smooth_boundaries.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <CGAL/Kernel_traits.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace browser_engine {
+
+using segment_mesh::Mesh;
+using segment_mesh::Point;
+using Label = std::uint32_t;
+using Progress_callback = std::function<bool(double)>;
+
+/// A mesh as it is drawn. Polygons are cut into fans.
+struct Drawn_mesh {
+  std::vector<float> positions;                 ///< three of each vertex
+  std::vector<std::uint32_t> triangles;         ///< three vertices each
+  std::vector<std::uint32_t> face_of_triangle;  ///< which face each triangle shows
+  std::vector<double> face_areas;
+};
+
+/// A segmentation at all levels, as a slider needs it.
+struct Levels {
+  std::vector<std::uint32_t> fragment_of_face;
+  std::vector<std::uint32_t> merged_regions;  ///< two a merge
+  std::vector<double> costs;                  ///< of the merges
+  std::size_t fragments = 0, components = 0, suggested = 0;
+};
+
+/// Curves on the surface, one after the other.
+struct Polylines {
+  std::vector<float> points;          ///< three coordinates each; a closed curve repeats its first point
+  std::vector<std::uint32_t> starts;  ///< the first point of each curve, and the end of the last
+};
+
+/// A mesh, its seeds and the walk on it, as a page edits them. Faces are named by their numbers in the mesh.
+class Session {
+ public:
+  /// Repairs what the faces of a file need to be a surface.
+  /// \throws std::invalid_argument if there is no face
+  explicit Session(const mesh_files::Polygon_soup& soup) : input_(segment_mesh::oriented_mesh(soup, {})) {
+    if (mesh().number_of_faces() == 0) throw std::invalid_argument("the file holds no face");
+  }
+
+  /// What was repaired, a sentence each.
+  const std::vector<std::string>& remarks() const { return input_.remarks; }
+
+  Drawn_mesh drawn_mesh() const {
+    Drawn_mesh drawn;
+    for (const auto v : mesh().vertices())
+      for (int i = 0; i < 3; ++i) drawn.positions.push_back(static_cast<float>(mesh().point(v)[i]));
+    for (const auto f : mesh().faces()) {
+      const auto first = mesh().halfedge(f);
+      for (auto h = mesh().next(first); mesh().next(h) != first; h = mesh().next(h)) {
+        for (const auto corner : {mesh().target(first), mesh().target(h), mesh().target(mesh().next(h))})
+          drawn.triangles.push_back(corner);
+        drawn.face_of_triangle.push_back(f);
+      }
+      drawn.face_areas.push_back(area(f));
+    }
+    return drawn;
+  }
+
+  /// Makes the walk anew for other numbers; the seeds stay.
+  void prepare(double convex_weight, double sigma) {
+    namespace RW = RW_segmentation;
+    std::vector<Vector> values(mesh().number_of_faces());
+    const auto normals = face_map(values);
+    RW::smoothed_face_normals(mesh(), normals, RW::Normal_smoothing());
+    const RW::Dihedral_difference difference(mesh(), normals, convex_weight, RW::Dihedral_measure::angle);
+    Walk walk(mesh(), RW::Conductance(mesh(), difference, sigma));
+    if (walk_)
+      for (const auto& [face, label] : walk_->seeds()) walk.add_seed(face, label);
+    walk_ = std::move(walk);
+  }
+
+  void add_seed(std::size_t face, Label label) { walk().add_seed(checked(face), label); }
+  void remove_seed(std::size_t face) { walk().remove_seed(checked(face)); }
+  void clear_seeds() { walk().clear_seeds(); }
+
+  /// The label of each face.
+  std::vector<Label> segment() {
+    std::vector<Label> labels(mesh().number_of_faces());
+    walk().segment(face_map(labels));
+    return labels;
+  }
+
+  /// How probably a walk from each face meets a seed of the label first.
+  std::vector<float> probabilities(Label label) {
+    std::vector<float> result(mesh().number_of_faces());
+    walk().write_probabilities(label, face_map(result));
+    return result;
+  }
+
+  /// Segments without seeds.
+  /// \tparam Policy of `RW_segmentation::segmentation_via_random_walks()`
+  template <class Policy>
+  Levels levels(const Policy& policy, const Progress_callback& callback) const {
+    namespace RW = RW_segmentation;
+    const auto hierarchy = RW::hierarchy_via_random_walks(mesh(), policy, std::vector<Mesh::Face_index>(),
+                                                          CGAL::parameters::callback(callback));
+    Levels levels;
+    levels.fragments = hierarchy.number_of_fragments();
+    levels.components = hierarchy.number_of_components();
+    levels.suggested = policy.stop(hierarchy);
+    levels.fragment_of_face.resize(mesh().number_of_faces());
+    hierarchy.segments(RW::Segment_count_stop(levels.fragments), face_map(levels.fragment_of_face));
+    for (const auto& merge : hierarchy.merges()) {
+      for (const std::size_t region : {merge.first, merge.second})
+        levels.merged_regions.push_back(static_cast<std::uint32_t>(region));
+      levels.costs.push_back(merge.cost);
+    }
+    return levels;
+  }
+
+  /// The smooth boundaries between segments.
+  Polylines smooth_boundaries(std::vector<Label> labels) const {
+    if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
+    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(labels));
+    Polylines lines;
+    const auto add = [&](const Point& p) {
+      for (int i = 0; i < 3; ++i) lines.points.push_back(static_cast<float>(p[i]));
+    };
+    for (const auto& curve : curves) {
+      lines.starts.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
+      for (const auto& curve_point : curve.points) add(curve_point.point);
+      if (curve.is_closed) add(curve.points.front().point);
+    }
+    lines.starts.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
+    return lines;
+  }
+
+ private:
+  using Walk = RW_segmentation::Random_walk<Mesh>;
+  using Vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
+
+  const Mesh& mesh() const { return input_.mesh; }
+
+  template <class Value>
+  using Face_map = boost::iterator_property_map<typename std::vector<Value>::iterator,
+                                                boost::property_map<Mesh, boost::face_index_t>::const_type>;
+
+  /// Values in the order of the mesh's faces as a property map.
+  template <class Value>
+  Face_map<Value> face_map(std::vector<Value>& values) const {
+    return {values.begin(), get(boost::face_index, mesh())};
+  }
+
+  double area(Mesh::Face_index f) const {
+    Vector twice = CGAL::NULL_VECTOR;
+    const auto first = mesh().halfedge(f);
+    const Point& apex = mesh().point(mesh().target(first));
+    for (auto h = mesh().next(first); mesh().next(h) != first; h = mesh().next(h))
+      twice = twice + CGAL::cross_product(mesh().point(mesh().target(h)) - apex,
+                                          mesh().point(mesh().target(mesh().next(h))) - apex);
+    return std::sqrt(twice.squared_length()) / 2;
+  }
+
+  Walk& walk() {
+    if (!walk_) throw std::logic_error("the walk has not been prepared");
+    return *walk_;
+  }
+
+  Mesh::Face_index checked(std::size_t face) const {
+    if (face >= mesh().number_of_faces()) throw std::invalid_argument("there is no face " + std::to_string(face));
+    return Mesh::Face_index(static_cast<Mesh::size_type>(face));
+  }
+
+  segment_mesh::Oriented_mesh input_;
+  std::optional<Walk> walk_;
+};
+
+}  // namespace browser_engine
+
+#endif

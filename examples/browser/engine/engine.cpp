@@ -1,0 +1,153 @@
+// The library as a WebAssembly module for a page: its `Session` with arrays in place of vectors.
+//
+// Every call returns its value, or an object with the property `error` where the library throws.
+
+#include "../../mesh_files/read_mesh.h"
+#include "Session.h"
+#include "generated_models.h"
+
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+using browser_engine::Label;
+using browser_engine::Session;
+using emscripten::val;
+
+/// A typed array with a copy of the values.
+template <class Value>
+val array_of(const std::vector<Value>& values) {
+  return val(emscripten::typed_memory_view(values.size(), values.data())).call<val>("slice");
+}
+
+template <class Call>
+val answer(const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    val failure = val::object();
+    failure.set("error", std::string(error.what()));
+    return failure;
+  }
+}
+
+/// `answer()` of a call that returns nothing.
+template <class Call>
+val done(const Call& call) {
+  return answer([&] {
+    call();
+    return val::undefined();
+  });
+}
+
+class Engine {
+ public:
+  explicit Engine(const mesh_files::Polygon_soup& soup) : session_(soup) {}
+
+  val mesh() {
+    return answer([&] {
+      const browser_engine::Drawn_mesh drawn = session_.drawn_mesh();
+      val notes = val::array();
+      for (const std::string& remark : session_.remarks()) notes.call<void>("push", remark);
+      val result = val::object();
+      result.set("positions", array_of(drawn.positions));
+      result.set("triangles", array_of(drawn.triangles));
+      result.set("faceOfTriangle", array_of(drawn.face_of_triangle));
+      result.set("faces", drawn.face_areas.size());
+      result.set("faceAreas", array_of(drawn.face_areas));
+      result.set("notes", notes);
+      return result;
+    });
+  }
+
+  val prepare(double convex_weight, double sigma) {
+    return done([&] { session_.prepare(convex_weight, sigma); });
+  }
+  val add_seed(std::size_t face, Label label) {
+    return done([&] { session_.add_seed(face, label); });
+  }
+  val remove_seed(std::size_t face) {
+    return done([&] { session_.remove_seed(face); });
+  }
+  val clear_seeds() {
+    return done([&] { session_.clear_seeds(); });
+  }
+  val segment() {
+    return answer([&] { return array_of(session_.segment()); });
+  }
+  val probabilities(Label label) {
+    return answer([&] { return array_of(session_.probabilities(label)); });
+  }
+
+  val hierarchy(const std::string& mode, val progress) {
+    return answer([&] {
+      const auto callback = [&](double fraction) { return progress(fraction).as<bool>(); };
+      const browser_engine::Levels levels = mode == "engineering"
+                                                ? session_.levels(RW_segmentation::Engineering_segmentation(), callback)
+                                                : session_.levels(RW_segmentation::Automatic_segmentation(), callback);
+      val result = val::object();
+      result.set("fragmentOfFace", array_of(levels.fragment_of_face));
+      result.set("merges", array_of(levels.merged_regions));
+      result.set("costs", array_of(levels.costs));
+      result.set("fragments", levels.fragments);
+      result.set("fewest", levels.components);
+      result.set("suggested", levels.suggested);
+      return result;
+    });
+  }
+
+  val smooth_boundaries(val labels) {
+    return answer([&] {
+      const browser_engine::Polylines lines =
+          session_.smooth_boundaries(emscripten::convertJSArrayToNumberVector<Label>(labels));
+      val result = val::object();
+      result.set("points", array_of(lines.points));
+      result.set("starts", array_of(lines.starts));
+      return result;
+    });
+  }
+
+ private:
+  Session session_;
+};
+
+/// \param name decides the format where the content does not
+val read_mesh(const std::string& bytes, const std::string& name) {
+  return answer([&] { return val(std::make_shared<Engine>(mesh_files::mesh_of_content(name, bytes))); });
+}
+
+val models() {
+  val names = val::array();
+  for (const auto& model : browser_engine::models()) names.call<void>("push", model.name);
+  return names;
+}
+
+val generate_mesh(const std::string& name) {
+  return answer([&] { return val(std::make_shared<Engine>(browser_engine::generated(name))); });
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(engine) {
+  emscripten::function("readMesh", &read_mesh);
+  emscripten::function("models", &models);
+  emscripten::function("generateMesh", &generate_mesh);
+  emscripten::class_<Engine>("Engine")
+      .smart_ptr<std::shared_ptr<Engine>>("Engine")
+      .function("mesh", &Engine::mesh)
+      .function("prepare", &Engine::prepare)
+      .function("addSeed", &Engine::add_seed)
+      .function("removeSeed", &Engine::remove_seed)
+      .function("clearSeeds", &Engine::clear_seeds)
+      .function("segment", &Engine::segment)
+      .function("probabilities", &Engine::probabilities)
+      .function("hierarchy", &Engine::hierarchy)
+      .function("smoothBoundaries", &Engine::smooth_boundaries);
+}
