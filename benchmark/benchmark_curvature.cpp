@@ -134,10 +134,10 @@ Surface torus(std::size_t around) {
 Mesh with_noise(Mesh mesh, double deviation) {
   if (deviation == 0) return mesh;
   std::mt19937 random(1);
-  std::normal_distribution<double> noise(0, deviation);
+  std::normal_distribution<double> noise;
   for (const auto v : mesh.vertices()) {
     Point& p = mesh.point(v);
-    p = Point(p.x() + noise(random), p.y() + noise(random), p.z() + noise(random));
+    p = p + deviation * Kernel::Vector_3{noise(random), noise(random), noise(random)};
   }
   return mesh;
 }

@@ -149,10 +149,11 @@ double diagonal_of(const Mesh& mesh) {
 
 void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
   std::mt19937 random(static_cast<unsigned>(random_seed));
-  std::normal_distribution<double> noise(0, percent / 100 * diagonal_of(mesh));
+  std::normal_distribution<double> noise;
+  const double deviation = percent / 100 * diagonal_of(mesh);
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
-    const double x = noise(random), y = noise(random), z = noise(random);
+    const double x = deviation * noise(random), y = deviation * noise(random), z = deviation * noise(random);
     mesh.point(v) = {p.x() + x, p.y() + y, p.z() + z};
   }
 }

@@ -268,9 +268,9 @@ inline Shape together(Shape first, const Shape& second) {
 /// Every point displaced by a normal deviate of this standard deviation in each coordinate.
 inline Shape with_noise(Shape shape, double deviation, unsigned seed = 1) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0, deviation);
+  std::normal_distribution<double> noise;
   for (Eigen::Vector3d& p : shape.points)
-    for (double& x : p) x += noise(random);
+    for (double& x : p) x += deviation * noise(random);
   return shape;
 }
 

@@ -91,9 +91,10 @@ struct Solid {
 /// diagonal.
 inline Solid with_noise(Solid solid, double percent, unsigned seed = 1) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0, percent / 100 * solid.diagonal());
+  std::normal_distribution<double> noise;
+  const double deviation = percent / 100 * solid.diagonal();
   for (Point& p : solid.points)
-    for (double& x : p) x += noise(random);
+    for (double& x : p) x += deviation * noise(random);
   return solid;
 }
 
