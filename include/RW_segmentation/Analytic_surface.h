@@ -51,14 +51,20 @@ struct Analytic_surface {
   /// Distance of a point, negative on the side that `normal()` points away from.
   /// \pre the surface is no free form
   double signed_distance(const Eigen::Vector3d& p) const {
+    const bool is_cone = type == Surface_type::cone;
+    return signed_distance(p, is_cone ? std::cos(half_angle) : 1, is_cone ? std::sin(half_angle) : 0);
+  }
+
+  /// As above, for many points of a cone whose angle's cosine and sine are known.
+  double signed_distance(const Eigen::Vector3d& p, double cosine, double sine) const {
     const Eigen::Vector3d q = p - point;
     if (type == Surface_type::sphere) return q.norm() - radius;
     const double height = q.dot(direction);
     if (type == Surface_type::plane) return height;
     const double off_axis = (q - height * direction).norm();
     if (type == Surface_type::cylinder) return off_axis - radius;
-    if (type == Surface_type::cone) return off_axis * std::cos(half_angle) - height * std::sin(half_angle);
-    return std::hypot(off_axis - radius, height) - tube_radius;
+    if (type == Surface_type::cone) return off_axis * cosine - height * sine;
+    return Eigen::Vector2d(off_axis - radius, height).norm() - tube_radius;
   }
 
   /// The gradient of the distance: a unit vector, away from the axis or the centre.
@@ -89,14 +95,25 @@ struct Surface_samples {
   }
 };
 
-/// The root mean square distance of points from a surface.
-inline double root_mean_square_distance(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points) {
+namespace internal {
+
+/// The sum of the squared distances of points from a surface.
+inline double squared_distances(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points) {
+  const double cosine = std::cos(surface.half_angle), sine = std::sin(surface.half_angle);
   double sum = 0;
   for (const Eigen::Vector3d& p : points) {
-    const double d = surface.signed_distance(p);
+    const double d = surface.signed_distance(p, cosine, sine);
     sum += d * d;
   }
-  return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+  return sum;
+}
+
+}  // namespace internal
+
+/// The root mean square distance of points from a surface.
+inline double root_mean_square_distance(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points) {
+  return points.empty() ? 0
+                        : std::sqrt(internal::squared_distances(surface, points) / static_cast<double>(points.size()));
 }
 
 namespace internal {
@@ -107,8 +124,12 @@ class Least_squares_surface {
  public:
   static constexpr int most_steps = 20;
 
-  Least_squares_surface(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points)
-      : surface_(surface), points_(points) {}
+  /// \param largest_residual that is of use; what promises none near it is left where it is
+  Least_squares_surface(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points,
+                        double largest_residual = std::numeric_limits<double>::infinity())
+      : surface_(surface),
+        points_(points),
+        hopeless_squares_(100 * largest_residual * largest_residual * static_cast<double>(points.size())) {}
 
   Analytic_surface fit(int steps = most_steps) {
     if (surface_.type == Surface_type::plane) return surface_;  // the eigenvector is the least already
@@ -129,14 +150,7 @@ class Least_squares_surface {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
 
-  double squares(const Analytic_surface& surface) const {
-    double sum = 0;
-    for (const Eigen::Vector3d& p : points_) {
-      const double d = surface.signed_distance(p);
-      sum += d * d;
-    }
-    return sum;
-  }
+  double squares(const Analytic_surface& surface) const { return squared_distances(surface, points_); }
 
   /// The normal equations at the present surface.
   void linearise() {
@@ -146,6 +160,8 @@ class Least_squares_surface {
     hessian_.setZero(n, n);
     gradient_.setZero(n);
     Vector row(n);
+    cosine_ = std::cos(surface_.half_angle);
+    sine_ = std::sin(surface_.half_angle);
     for (const Eigen::Vector3d& p : points_) {
       const double distance = derivatives(p, row);
       for (int j = 0; j < n; ++j)
@@ -171,18 +187,19 @@ class Least_squares_surface {
       return s - surface_.radius;
     }
     if (surface_.type == Surface_type::cone) {
-      const double c = std::cos(surface_.half_angle), d = std::sin(surface_.half_angle), along = h * c + s * d;
+      const double c = cosine_, d = sine_, along = h * c + s * d;
       row << -c * x, -c * y, d, -along * x, -along * y, -s * d - h * c;
       return s * c - h * d;
     }
-    const double from_centre = std::hypot(s - surface_.radius, h);
+    const double from_centre = Eigen::Vector2d(s - surface_.radius, h).norm();
     const double c = (s - surface_.radius) / std::max(from_centre, tiny), d = h / std::max(from_centre, tiny);
     const double turn = s * d - h * c;
     row << -c * x, -c * y, -d, turn * x, turn * y, -c, -1;
     return from_centre - surface_.tube_radius;
   }
 
-  /// Takes the step with the least damping that lessens the squares.
+  /// Takes the step with the least damping that lessens the squares. False if there is none, or the linearised distances
+  /// hardly lessen and stay too large.
   bool descend(double& sum) {
     const double largest = hessian_.diagonal().maxCoeff();
     for (int trial = 0; trial < 4; ++trial, damping_ *= 10) {
@@ -190,16 +207,24 @@ class Least_squares_surface {
       damped.diagonal() *= 1 + damping_;
       damped.diagonal().array() += 1e-12 * largest;
       const Vector step = damped.selfadjointView<Eigen::Lower>().ldlt().solve(-gradient_);
+      if (const double linear = squares_after(step, sum); linear > hopeless_squares_ && linear > 0.8 * sum)
+        return false;
       const Analytic_surface moved = surface_after(step);
-      const double squares_after = squares(moved);
-      if (squares_after < sum) {
+      const double squares_there = squares(moved);
+      if (squares_there < sum) {
         surface_ = moved;
-        sum = squares_after;
+        sum = squares_there;
         damping_ /= 10;
         return true;
       }
     }
     return false;
+  }
+
+  /// The squares that the linearised distances have after a step.
+  double squares_after(const Vector& step, double sum) const {
+    const Vector change = hessian_.selfadjointView<Eigen::Lower>() * step;
+    return sum + step.dot(2 * gradient_ + change);
   }
 
   Analytic_surface surface_after(const Vector& step) const {
@@ -222,7 +247,9 @@ class Least_squares_surface {
 
   Analytic_surface surface_;
   const std::vector<Eigen::Vector3d>& points_;
+  const double hopeless_squares_;
   Eigen::Vector3d first_, second_;  // orthogonal to the axis
+  double cosine_ = 1, sine_ = 0;    // of the cone's angle
   Matrix hessian_;                  // its lower half
   Vector gradient_;
   double damping_ = 1e-4;
@@ -232,14 +259,24 @@ class Least_squares_surface {
 /// first approximation is sought.
 class Surface_fit {
  public:
-  explicit Surface_fit(const Surface_samples& samples) : samples_(samples) {
+  /// \param largest_residual that is of use; surfaces farther off may be given up early
+  explicit Surface_fit(const Surface_samples& samples,
+                       double largest_residual = std::numeric_limits<double>::infinity())
+      : samples_(samples), largest_residual_(largest_residual) {
     for (const Eigen::Vector3d& p : samples.points) mean_ += p;
     mean_ /= static_cast<double>(samples.points.size());
     for (const Eigen::Vector3d& p : samples.points) covariance_ += (p - mean_) * (p - mean_).transpose();
     spread_ = std::sqrt(covariance_.trace() / static_cast<double>(samples.points.size()));
   }
 
+  /// The surface of a type; nothing if its residual is too large.
   std::optional<Analytic_surface> fit(Surface_type type) const {
+    const auto surface = closest(type);
+    return surface && surface->residual <= largest_residual_ ? surface : std::nullopt;
+  }
+
+ private:
+  std::optional<Analytic_surface> closest(Surface_type type) const {
     const auto needed = static_cast<std::size_t>(degrees_of_freedom(type));
     if (samples_.points.size() < needed || samples_.normals.empty() || !(spread_ > 0)) return {};
     switch (type) {
@@ -259,7 +296,6 @@ class Surface_fit {
     return {};
   }
 
- private:
   using Approximation = std::optional<Analytic_surface>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -397,7 +433,7 @@ class Surface_fit {
 
   Approximation refined(const Approximation& approximation) const {
     if (!approximation) return {};
-    Analytic_surface surface = Least_squares_surface(*approximation, samples_.points).fit();
+    Analytic_surface surface = Least_squares_surface(*approximation, samples_.points, largest_residual_).fit();
     return is_sound(surface) ? Approximation(surface) : std::nullopt;
   }
 
@@ -421,6 +457,7 @@ class Surface_fit {
   }
 
   const Surface_samples& samples_;
+  const double largest_residual_;
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  // times the number of points
   double spread_ = 0;                                     // root mean square distance from the mean
@@ -449,9 +486,14 @@ inline double squared_turns(const Analytic_surface& surface, const Surface_sampl
 /// \param type what to fit
 /// \param samples at least as many points as the surface has degrees of freedom, and one normal. Accuracy suffers when
 /// coordinates are far from 0 or huge.
-/// \returns nothing if there are too few samples, or they are too flat to tell the surface from a simpler one
-inline std::optional<Analytic_surface> fit_analytic_surface(Surface_type type, const Surface_samples& samples) {
-  return internal::Surface_fit(samples).fit(type);
+/// \param largest_residual the largest root mean square distance that is of use: what cannot come near it is given up
+/// after a step or two
+/// \returns nothing if there are too few samples, they are too flat to tell the surface from a simpler one, or its
+/// residual is larger than that
+inline std::optional<Analytic_surface> fit_analytic_surface(
+    Surface_type type, const Surface_samples& samples,
+    double largest_residual = std::numeric_limits<double>::infinity()) {
+  return internal::Surface_fit(samples, largest_residual).fit(type);
 }
 
 /// The surface that explains points best: the number of degrees of freedom counts against closeness, each as much as
@@ -462,7 +504,7 @@ inline std::optional<Analytic_surface> fit_analytic_surface(Surface_type type, c
 /// \param tolerance the root mean square distance that points on a surface are expected to have; in units of the points
 /// \returns a free form if no surface lies within twice the tolerance, in the root mean square, of the points
 inline Analytic_surface fit_analytic_surface(const Surface_samples& samples, double tolerance) {
-  const internal::Surface_fit fit(samples);
+  const internal::Surface_fit fit(samples, 2 * tolerance);
   const auto n = static_cast<double>(samples.points.size());
   Analytic_surface best;
   double least = std::numeric_limits<double>::infinity();
@@ -470,7 +512,7 @@ inline Analytic_surface fit_analytic_surface(const Surface_samples& samples, dou
     const double penalty = degrees_of_freedom(type) * std::log(std::max(n, 2.));
     if (penalty >= least) break;
     const auto surface = fit.fit(type);
-    if (!surface || surface->residual > 2 * tolerance) continue;
+    if (!surface) continue;
     const double ratio = surface->residual / tolerance;
     const double criterion = n * ratio * ratio + internal::squared_turns(*surface, samples) + penalty;
     if (criterion < least) {

@@ -7,6 +7,8 @@
 #include <RW_segmentation/internal/Face_corners.h>
 #include <RW_segmentation/internal/Face_geometry.h>
 
+#include <boost/container_hash/hash.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,6 +117,7 @@ class Surface_growing {
         is_noisy ? std::vector<Pass>{{1000, false}, {400, false}, {160, false}, {64, false}, {24, false}}
                  : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, false}};
     possible_gain_.assign(graph_.number_of_faces(), std::numeric_limits<double>::infinity());
+    failures_.assign(graph_.number_of_faces(), {});
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1000 == 0)
@@ -167,6 +170,12 @@ class Surface_growing {
     Patch patch;
     Analytic_surface surface;
     double gain = -std::numeric_limits<double>::infinity();
+  };
+
+  /// What the regions about a face gained that were not taken.
+  struct Failure {
+    std::size_t neighbourhood = 0;  // a hash
+    double gain = std::numeric_limits<double>::infinity();
   };
 
   /// Which regions are taken: those that gain enough, about round neighbourhoods or along narrow ones, too.
@@ -313,8 +322,8 @@ class Surface_growing {
     const auto needed = static_cast<std::size_t>(degrees_of_freedom(type)) + 1;
     Region region;
     if (start.vertices.size() < needed) return region;
-    auto surface = fit_analytic_surface(type, samples_of(start));
-    if (!surface || surface->residual > tolerance_->largest_distance()) return region;
+    auto surface = fit_analytic_surface(type, samples_of(start), tolerance_->largest_distance());
+    if (!surface) return region;
     const Patch* last = &start;
     std::size_t last_size = start.vertices.size(), limit = 2 * last_size;
     for (int round = 0; round < most_rounds; ++round) {
@@ -359,14 +368,24 @@ class Surface_growing {
     const std::vector<std::size_t> sizes =
         is_noisy ? std::vector<std::size_t>{18, 54, 162} : std::vector<std::size_t>{12, 36};
     Region best;
-    for (const std::size_t size : sizes) {
-      const Patch start = neighbourhood(seed, size);
-      improve(best, seed, start, pass.least_gain);
-      if (best.gain >= pass.least_gain && !is_noisy) return best;
-      if (start.vertices.size() < size) break;
+    const Patch largest = neighbourhood(seed, sizes.back());
+    if (is_noisy || !has_failed(seed, largest, pass.least_gain)) {
+      for (const std::size_t size : sizes) {
+        const Patch start = neighbourhood(seed, size);
+        improve(best, seed, start, pass.least_gain);
+        if (best.gain >= pass.least_gain && !is_noisy) return best;
+        if (start.vertices.size() < size) break;
+      }
+      failures_[seed] = {boost::hash_range(largest.faces.begin(), largest.faces.end()), best.gain};
     }
     if (pass.along_strips) improve(best, seed, flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
     return best;
+  }
+
+  /// Whether regions that begin as the same neighbourhood gained too little before.
+  bool has_failed(Index seed, const Patch& neighbourhood, double least_gain) const {
+    return failures_[seed].gain < least_gain &&
+           failures_[seed].neighbourhood == boost::hash_range(neighbourhood.faces.begin(), neighbourhood.faces.end());
   }
 
   /// Other faces of a region that gained too little would hardly gain more.
@@ -510,6 +529,7 @@ class Surface_growing {
   Surface_samples samples_;
   std::vector<std::size_t> region_of_face_;
   std::vector<Analytic_surface> surfaces_;  // of each region
+  std::vector<Failure> failures_;           // by face
   std::vector<double> possible_gain_;       // of a region about each face, as far as is known
 };
 
