@@ -19,7 +19,9 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 #include <cmath>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -424,6 +426,86 @@ TEST_F(Segment_mesh_tool, AnyNumberOfSegmentsIsExactAndReadOffTheHierarchy) {
   EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()).size(), 100U);
 }
 
+const std::string place_for_result = "<script type=\"application/json\" id=\"embedded-result\">";
+
+/// The result in a page that was written about the place for one, with `before` and `after` around it.
+nlohmann::json result_in_page(const std::string& page, const std::string& before, const std::string& after) {
+  EXPECT_EQ(page.substr(0, before.size()), before);
+  EXPECT_EQ(page.substr(page.size() - after.size()), after);
+  const std::string text = page.substr(before.size(), page.size() - before.size() - after.size());
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  return nlohmann::json::parse(text);
+}
+
+std::string bytes_of_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  EXPECT_EQ(text.size() % 4, 0U);
+  std::string bytes;
+  unsigned bits = 0, number = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    number = number << 6 | static_cast<unsigned>(digits.find(c));
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(number >> bits & 0xff);
+  }
+  return bytes;
+}
+
+template <class Number>
+std::vector<Number> numbers_of_base64(const nlohmann::json& text) {
+  const std::string bytes = bytes_of_base64(text);
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  return numbers;
+}
+
+TEST_F(Segment_mesh_tool, APageHoldsMeshLabelsAndLevels) {
+  const std::string name = "a <script> of tower.off";
+  const std::string before = "<html>" + place_for_result, after = "</script><p></html>\n";
+  write(name, tower(3));
+  write("page.html", before + "null" + after);
+  const Result result =
+      run({name, "--html", "result.html", "--page", "page.html", "--labels", "t.seg", "--hierarchy", "h.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto page = result_in_page(content_of(path("result.html")), before, after);
+  EXPECT_EQ(page["name"], name);
+  EXPECT_EQ(page["mode"], "graphical");
+  EXPECT_EQ(page["seeds"].size(), 0U);
+  EXPECT_EQ(page["segments"], 3);
+
+  const auto found = labels("t.seg");
+  const auto page_labels = numbers_of_base64<std::uint32_t>(page["labels"]);
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), page_labels.begin(), page_labels.end()));
+  write("again.ply", bytes_of_base64(page["mesh"]));
+  ASSERT_EQ(run({"again.ply", "--labels", "again.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("again.seg"), found);
+
+  const auto hierarchy = nlohmann::json::parse(content_of(path("h.json")));
+  EXPECT_EQ(page["hierarchy"]["fragments"], hierarchy["fragments"]);
+  EXPECT_EQ(page["hierarchy"]["fewest"], hierarchy["components"]);
+  EXPECT_EQ(page["hierarchy"]["suggested"], 3);
+  const auto fragments = numbers_of_base64<std::uint32_t>(page["hierarchy"]["fragmentOfFace"]);
+  EXPECT_EQ(nlohmann::json(fragments), hierarchy["fragment_of_face"]);
+  const auto regions = numbers_of_base64<std::uint32_t>(page["hierarchy"]["merges"]);
+  const auto costs = numbers_of_base64<double>(page["hierarchy"]["costs"]);
+  ASSERT_EQ(regions.size(), 2 * hierarchy["merges"].size());
+  ASSERT_EQ(costs.size(), hierarchy["merges"].size());
+  for (std::size_t i = 0; i < costs.size(); ++i)
+    EXPECT_EQ(nlohmann::json({regions[2 * i], regions[2 * i + 1], costs[i]}), hierarchy["merges"][i]);
+}
+
+TEST_F(Segment_mesh_tool, APageHoldsSeedsAndTheirLabels) {
+  write("strip.off", strip(6));
+  write("page.html", place_for_result + "null</script>");
+  ASSERT_EQ(run({"strip.off", "--seed", "1=4", "--seed", "5=2", "--html", "s.html", "--page", "page.html"}).exit_code,
+            0);
+  const auto page = result_in_page(content_of(path("s.html")), place_for_result, "</script>");
+  EXPECT_EQ(page["mode"], "seeds");
+  EXPECT_EQ(page["hierarchy"], nullptr);
+  EXPECT_EQ(page["seeds"], nlohmann::json::parse(R"([{"face": 1, "label": 4}, {"face": 5, "label": 2}])"));
+}
+
 TEST_F(Segment_mesh_tool, SplitWritesEachSegmentAsAMeshOfItsOwn) {
   write("tower.off", tower(2));
   ASSERT_EQ(run({"tower.off", "--segments", "3", "--labels", "t.seg", "--split", "parts"}).exit_code, 0);
@@ -737,6 +819,11 @@ TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
 }
 
 TEST_F(Segment_mesh_tool, UnreadableInputIsCodeTwo) {
+  write("strip.off", strip(3));
+  write("other.html", "<html></html>");
+  for (const auto& [page, message] : {std::pair("missing.html", "missing.html: the page is not there"),
+                                      {"other.html", "other.html: this page has no place for a result"}})
+    expect_failure(2, message, {"strip.off", "--labels", "l.seg", "--html", "h.html", "--page", page});
   expect_failure(2, "missing.off: No such file or directory", {"missing.off", "--seed", "0", "--labels", "l.seg"});
   expect_failure(2, ".: this is a folder", {".", "--seed", "0"});
   for (const auto& [name, content, message] : std::vector<std::array<std::string, 3>>{

@@ -8,15 +8,18 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mesh_files {
 
 /// Collects what is written and hands it on in large blocks.
 class Buffer {
  public:
-  explicit Buffer(Output_file& file) : file_(file) { bytes_.reserve(block + 1024); }
+  explicit Buffer(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) { bytes_.reserve(block + 1024); }
+  explicit Buffer(Output_file& file) : Buffer([&file](std::string_view bytes) { file.write(bytes); }) {}
 
   Buffer& operator<<(std::string_view text) {
     bytes_ += text;
@@ -51,13 +54,13 @@ class Buffer {
   }
 
   void flush() {
-    file_.write(bytes_);
+    sink_(bytes_);
     bytes_.clear();
   }
 
  private:
   static constexpr std::size_t block = 1 << 20;
-  Output_file& file_;
+  std::function<void(std::string_view)> sink_;
   std::string bytes_;
 };
 

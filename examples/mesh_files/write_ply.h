@@ -15,7 +15,7 @@
 namespace mesh_files {
 
 /// Writes a binary PLY file with a label ("segment") for each face, and the colours.
-inline void write_ply(Output_file& file, const Polygon_soup& soup, const Colors& colors,
+inline void write_ply(Buffer& out, const Polygon_soup& soup, const Colors& colors,
                       const std::vector<std::size_t>& face_labels) {
   constexpr std::string_view color_properties = "\nproperty uchar red\nproperty uchar green\nproperty uchar blue";
   const auto write = [](Buffer& out, const Color& color) {
@@ -26,7 +26,6 @@ inline void write_ply(Output_file& file, const Polygon_soup& soup, const Colors&
     largest_degree = std::max<std::size_t>(largest_degree, soup.face(f).size());
   const bool has_small_degrees = largest_degree < 256;  // readers expect one byte where it will do
 
-  Buffer out(file);
   out << "ply\nformat binary_little_endian 1.0\nelement vertex ";
   out.number(soup.points.size());
   out << "\nproperty double x\nproperty double y\nproperty double z";
@@ -51,6 +50,12 @@ inline void write_ply(Output_file& file, const Polygon_soup& soup, const Colors&
     out.binary(static_cast<std::uint32_t>(face_labels[f]));
   }
   out.flush();
+}
+
+inline void write_ply(Output_file& file, const Polygon_soup& soup, const Colors& colors,
+                      const std::vector<std::size_t>& face_labels) {
+  Buffer out(file);
+  write_ply(out, soup, colors, face_labels);
 }
 
 }  // namespace mesh_files

@@ -32,7 +32,7 @@ enum Exit_code {
 /// The files that belong to a mesh. Those not asked for are empty.
 struct Files {
   std::vector<std::string> outputs;
-  std::string seeds, labels, split, probabilities, hierarchy, boundaries, report;
+  std::string seeds, labels, split, probabilities, hierarchy, boundaries, html, report;
 };
 
 /// What the user asks for. What is not given is left to the library's own numbers.
@@ -50,13 +50,16 @@ struct Options {
   std::optional<RW_segmentation::Dihedral_measure> measure;
 
   bool is_smooth = false, is_refined = false;
-  Files files;  ///< a `%` in a path stands for the name of the mesh
+  Files files;       ///< a `%` in a path stands for the name of the mesh
+  std::string page;  ///< of `files.html`; empty for the one that comes with the tool
   bool has_point_colors = false;
   bool is_quiet = false, is_man_page_wanted = false;
 
   bool has_seeds() const { return !seeds.empty() || !files.seeds.empty(); }
   /// Whether fragments are merged, instead of each label of a seed being a segment.
   bool merges() const { return !is_coarse && (!has_seeds() || segments || automatic_seeds); }
+  /// How the segments are found, as a page names it.
+  const char* mode() const { return !merges() ? "seeds" : is_engineering ? "engineering" : "graphical"; }
   /// Whether meshes are worked through one after the other, so that one that fails does not end the work.
   bool has_several_meshes() const { return meshes.size() > 1 || !list.empty(); }
   /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own.

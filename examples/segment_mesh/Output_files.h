@@ -4,9 +4,11 @@
 #include "../mesh_files.h"
 #include "Boundaries.h"
 #include "Closest_face.h"
+#include "Options.h"
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
 #include "Task.h"
+#include "html_page.h"
 #include "report.h"
 #include "segments.h"
 
@@ -63,7 +65,8 @@ inline Json hierarchy_of(const std::vector<Mesh::Face_index>& faces, const Segme
 /// together at its end.
 class Output_files {
  public:
-  Output_files(const Files& files, bool has_point_colors) : files_(files), has_point_colors_(has_point_colors) {
+  Output_files(const Files& files, const Options& options) : files_(files), options_(options) {
+    if (!files.html.empty()) page_.emplace(options.page.empty() ? path_of_page() : options.page);
     for (const auto& [option, path] : written_files(files)) create(path);
     if (!files.split.empty()) split_.emplace(files.split);
   }
@@ -76,6 +79,10 @@ class Output_files {
     if (!files_.probabilities.empty()) write_probabilities(faces, result);
     if (!files_.hierarchy.empty()) file(files_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
     if (split_) write_parts(soup, labels, segments);
+  }
+
+  void write_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments) {
+    if (page_) page_->write(file(files_.html), result_for_page(path, mesh, result, segments, options_.mode()));
   }
 
   void write_boundaries(const Boundary_curves& curves) {
@@ -100,8 +107,8 @@ class Output_files {
   /// The colours of faces as the files are to have them.
   mesh_files::Colors colors_of(const mesh_files::Polygon_soup& soup,
                                const std::vector<mesh_files::Color>& face_colors) const {
-    return has_point_colors_ ? mesh_files::colors_of_points(soup, face_colors)
-                             : mesh_files::colors_of_faces(face_colors);
+    return options_.has_point_colors ? mesh_files::colors_of_points(soup, face_colors)
+                                     : mesh_files::colors_of_faces(face_colors);
   }
 
   void write_meshes(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
@@ -113,8 +120,8 @@ class Output_files {
     for (const std::size_t label : labels) face_colors.push_back(color_of_label[label]);
 
     const mesh_files::Polygon_soup apart =
-        has_point_colors_ ? mesh_files::with_points_apart(soup, labels) : mesh_files::Polygon_soup();
-    const mesh_files::Polygon_soup& written = has_point_colors_ ? apart : soup;
+        options_.has_point_colors ? mesh_files::with_points_apart(soup, labels) : mesh_files::Polygon_soup();
+    const mesh_files::Polygon_soup& written = options_.has_point_colors ? apart : soup;
     const mesh_files::Colors colors = colors_of(written, face_colors);
     for (const std::string& path : files_.outputs) {
       const std::string extension = mesh_files::extension_of(path);
@@ -153,7 +160,8 @@ class Output_files {
   }
 
   const Files& files_;
-  bool has_point_colors_;
+  const Options& options_;
+  std::optional<Html_page> page_;
   std::optional<mesh_files::Output_folder> split_;  // outlives the files in it
   std::deque<mesh_files::Output_file> open_;
 };

@@ -40,6 +40,7 @@ using Mesh_vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
 /// What is known of the faces of the mesh at the end.
 struct Segmentation {
   std::vector<std::size_t> label;                  ///< of each face
+  std::vector<Face_label> labelled_seeds;          ///< empty where fragments were merged
   std::vector<std::size_t> seed_labels;            ///< in ascending order
   std::vector<std::vector<double>> probabilities;  ///< for each of them and each face, if asked for
   std::size_t seeds = 0, unseeded_components = 0, island_faces = 0, degenerate_faces = 0;
@@ -150,6 +151,7 @@ Segmentation segment_from_seeds(const Mesh& mesh, std::vector<Face_label> seeds,
       walk.write_probabilities(label, face_map(mesh, result.probabilities.back()));
     }
   result.seeds = seeds.size();
+  result.labelled_seeds = std::move(seeds);
   result.unseeded_components = walk.report().unseeded_components;
   result.island_faces = walk.report().island_faces;
   result.degenerate_faces = number_of_degenerate_faces(mesh);

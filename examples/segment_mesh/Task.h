@@ -40,6 +40,7 @@ inline std::vector<std::pair<const char*, std::string>> written_files(const File
                                      {"--probabilities", files.probabilities},
                                      {"--hierarchy", files.hierarchy},
                                      {"--boundaries", files.boundaries},
+                                     {"--html", files.html},
                                      {"--report", files.report}})
     if (!path.empty()) written.emplace_back(option, path);
   return written;
@@ -54,7 +55,7 @@ inline Files files_for(const std::string& mesh, Files patterns) {
   };
   for (std::string& path : patterns.outputs) replace(path);
   for (std::string* path : {&patterns.seeds, &patterns.labels, &patterns.split, &patterns.probabilities,
-                            &patterns.hierarchy, &patterns.boundaries, &patterns.report})
+                            &patterns.hierarchy, &patterns.boundaries, &patterns.html, &patterns.report})
     replace(*path);
   return patterns;
 }

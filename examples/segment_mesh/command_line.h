@@ -138,6 +138,13 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--hierarchy", options.files.hierarchy, "All merges, as JSON: any number of segments can be read off")
       ->option_text("FILE")
       ->group("Output");
+  app.add_option("--html", options.files.html,
+                 "A page to look at the segments in a browser, and to change them: one file that needs nothing else")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_option("--page", options.page, "The page that --html fills in, instead of the one that comes with the tool")
+      ->option_text("FILE")
+      ->group("Output");
   app.add_option("--report", options.files.report, "What was done, as one line of JSON for each mesh")
       ->option_text("FILE")
       ->group("Output");

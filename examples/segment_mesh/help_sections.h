@@ -52,6 +52,7 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "  segment_mesh hand.off --segments 6 --split fingers\n"
      "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
      "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
+     "  segment_mesh hand.off --html hand.html\n"
      "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n"
      "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n",
      true},

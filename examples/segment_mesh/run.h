@@ -118,13 +118,14 @@ Json segment_task(const Task& task, const Options& options, const Policy& number
   // Before the first output is created, or a signal in between would leave it behind.
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
-  Output_files files(task.files, options.has_point_colors);
+  Output_files files(task.files, options);
   Segmentation result = segment(input.mesh, seeds, options, policy, stages);
   treat_boundaries(options, soup, input, result, stages, files);
 
   stages.start("writing");
   const std::vector<Segment> segments = segments_of(input.mesh, result.label);
   files.write(soup, faces_in_file_order(soup, input), result, segments);
+  files.write_page(task.mesh, input.mesh, result, segments.size());
   stages.end();
   Json report = report_of(task.mesh, soup, input.remarks, policy, result, segments, stages.milliseconds());
   files.commit(report);

@@ -1,0 +1,126 @@
+#ifndef SEGMENT_MESH_HTML_PAGE_H
+#define SEGMENT_MESH_HTML_PAGE_H
+
+#include "../mesh_files.h"
+#include "Boundaries.h"
+#include "Oriented_mesh.h"
+#include "Segmentation.h"
+#include "report.h"
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <boost/endian/conversion.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace segment_mesh {
+
+/// Where the page of examples/browser is: beside the tool as it is installed, or where it was built.
+inline std::string path_of_page() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path tool = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = tool.parent_path() / "../share/RW_segmentation/segment_mesh.html";
+  if (!error && fs::exists(installed, error)) return installed.string();
+#ifdef SEGMENT_MESH_PAGE
+  return SEGMENT_MESH_PAGE;
+#else
+  return installed.lexically_normal().string();
+#endif
+}
+
+/// The page of examples/browser, and where a result goes in it.
+class Html_page {
+ public:
+  /// \throws mesh_files::Unreadable_file if there is no page, or none that takes a result
+  explicit Html_page(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored))
+      throw mesh_files::Unreadable_file(path + ": the page is not there; build it as examples/browser/README.md tells");
+    content_ = mesh_files::read_content(path);
+    const std::string mark = "<script type=\"application/json\" id=\"embedded-result\">";
+    begin_ = content_.find(mark);
+    if (begin_ != std::string::npos) end_ = content_.find("</script>", begin_ += mark.size());
+    if (begin_ == std::string::npos || end_ == std::string::npos)
+      throw mesh_files::Unreadable_file(path + ": this page has no place for a result");
+  }
+
+  /// The page with a result in it.
+  void write(mesh_files::Output_file& file, const Json& result) const {
+    std::string text = result.dump(-1, ' ', true, Json::error_handler_t::replace);
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+    file.write(content_.substr(0, begin_));
+    file.write(text);
+    file.write(content_.substr(end_));
+  }
+
+ private:
+  std::string content_;
+  std::size_t begin_ = 0, end_ = 0;
+};
+
+inline std::string base64(const std::string& bytes) {
+  namespace iterators = boost::archive::iterators;
+  using Digits = iterators::base64_from_binary<iterators::transform_width<std::string::const_iterator, 6, 8>>;
+  std::string digits(Digits(bytes.begin()), Digits(bytes.end()));
+  return digits.append((4 - digits.size() % 4) % 4, '=');
+}
+
+/// Numbers as a page takes them: their bytes, the lowest first, in base64.
+/// \tparam Written the type that they have there
+template <class Written, class Value>
+std::string base64_of(const std::vector<Value>& values) {
+  std::string bytes(values.size() * sizeof(Written), '\0');
+  auto* at = reinterpret_cast<unsigned char*>(bytes.data());
+  for (const Value& value : values) {
+    boost::endian::endian_store<Written, sizeof(Written), boost::endian::order::little>(at,
+                                                                                        static_cast<Written>(value));
+    at += sizeof(Written);
+  }
+  return base64(bytes);
+}
+
+/// All levels of a segmentation as a page takes them; null if there is only one.
+inline Json levels_of(const Segmentation& result, std::size_t segments) {
+  if (result.fragment.empty()) return nullptr;
+  std::vector<std::size_t> regions;
+  std::vector<double> costs;
+  for (const auto& merge : result.tree.merges()) {
+    regions.insert(regions.end(), {merge.first, merge.second});
+    costs.push_back(merge.cost);
+  }
+  return {{"fragmentOfFace", base64_of<std::uint32_t>(result.fragment)},
+          {"merges", base64_of<std::uint32_t>(regions)},
+          {"costs", base64_of<double>(costs)},
+          {"fragments", result.tree.number_of_fragments()},
+          {"fewest", result.tree.number_of_components()},
+          {"suggested", segments}};
+}
+
+/// A segmentation as a page takes it.
+inline Json result_for_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments,
+                            const char* mode) {
+  std::string ply;
+  mesh_files::Buffer out([&](std::string_view bytes) { ply += bytes; });
+  mesh_files::write_ply(out, soup_of(mesh), {}, result.label);
+  Json seeds = Json::array();
+  for (const auto& [face, label] : result.labelled_seeds)
+    seeds.push_back({{"face", static_cast<std::size_t>(face)}, {"label", label}});
+  return {{"name", std::filesystem::path(path).filename().string()},
+          {"mesh", base64(ply)},
+          {"labels", base64_of<std::uint32_t>(result.label)},
+          {"hierarchy", levels_of(result, segments)},
+          {"segments", segments},
+          {"mode", mode},
+          {"seeds", std::move(seeds)}};
+}
+
+}  // namespace segment_mesh
+
+#endif
