@@ -1,0 +1,25 @@
+import { defineConfig } from '@playwright/test';
+
+const output = '../../build/browser';
+
+export default defineConfig({
+  testDir: 'tests',
+  testMatch: '**/*.test.ts',
+  outputDir: `${output}/test-results`,
+  workers: 1, // of which the browser takes more than one core
+  timeout: 120_000,
+  expect: { timeout: 30_000 },
+  reporter: 'line',
+  use: {
+    viewport: { width: 1280, height: 720 },
+    launchOptions: {
+      executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+      args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+    },
+  },
+  projects: [
+    { name: 'unit', testDir: 'tests/unit' },
+    { name: 'browser', testDir: 'tests/browser' },
+    { name: 'benchmark', testDir: 'tests/benchmark' },
+  ],
+});

@@ -1,0 +1,51 @@
+import type { Hierarchy, HierarchyKind } from '../worker/EngineModule';
+
+/** A result that `segment_mesh --html` has put into the page. */
+export interface EmbeddedResult {
+  name: string;
+  /** A PLY file. */
+  mesh: Uint8Array;
+  segmentOfFace: Uint32Array;
+  hierarchy: Hierarchy | null;
+  segments: number;
+  mode: 'seeds' | HierarchyKind;
+  seeds: { face: number; label: number }[];
+}
+
+/** The result in its written form: arrays are in base64. */
+type Written = Omit<EmbeddedResult, 'mesh' | 'segmentOfFace' | 'hierarchy'> & {
+  mesh: string;
+  labels: string;
+  hierarchy:
+    | ({ fragmentOfFace: string; merges: string; costs: string } & Pick<
+        Hierarchy,
+        'fragments' | 'fewest' | 'suggested'
+      >)
+    | null;
+};
+
+/** @param text the content of the page's element `embedded-result`; null if that says so */
+export function readEmbeddedResult(text: string): EmbeddedResult | null {
+  const written = JSON.parse(text) as Written | null;
+  if (!written) return null;
+  const { mesh, labels, hierarchy, ...rest } = written;
+  return {
+    ...rest,
+    mesh: bytes(mesh),
+    segmentOfFace: new Uint32Array(bytes(labels).buffer),
+    hierarchy: hierarchy && {
+      ...hierarchy,
+      fragmentOfFace: new Uint32Array(bytes(hierarchy.fragmentOfFace).buffer),
+      merges: new Uint32Array(bytes(hierarchy.merges).buffer),
+      costs: new Float64Array(bytes(hierarchy.costs).buffer),
+      milliseconds: 0,
+    },
+  };
+}
+
+function bytes(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const result = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) result[i] = text.charCodeAt(i);
+  return result;
+}

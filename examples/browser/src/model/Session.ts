@@ -1,0 +1,177 @@
+import { batch, computed, effect, signal } from '@preact/signals-core';
+import { defaultParameters, type LoadedMesh, type MeshSource, type WalkParameters } from '../worker/calls';
+import { Cancelled, EngineClient } from '../worker/EngineClient';
+import type { Curves } from '../worker/EngineModule';
+import { Appearance } from './Appearance';
+import { AutomaticSegmentation } from './AutomaticSegmentation';
+import { colorOf, type Color } from './colorVision';
+import { latest } from './latest';
+import { palette } from './palette';
+import { segmentColors } from './segmentColors';
+import { neighboursOf, segmentsOf, type Segment } from './segments';
+import { SeedSegmentation } from './SeedSegmentation';
+
+export type Mode = 'seeds' | 'automatic';
+export type Tool = 'view' | 'seed' | 'paint' | 'erase';
+
+/** A segment as it is shown. */
+export interface ShownSegment extends Segment {
+  name: string;
+  color: Color;
+}
+
+/** What is said to the user. */
+export interface Message {
+  kind: 'error' | 'note';
+  text: string;
+}
+
+/** A mesh that is being segmented, and everything the page knows of it. */
+export class Session {
+  readonly engine = new EngineClient();
+  readonly seeds = new SeedSegmentation(this.engine, (error) => this.report(error));
+  readonly automatic = new AutomaticSegmentation(this.engine, (error) => this.report(error));
+  readonly appearance = new Appearance();
+
+  readonly mesh = signal<LoadedMesh | null>(null);
+  readonly name = signal('');
+  /** What is being opened. */
+  readonly opening = signal<string | null>(null);
+  readonly message = signal<Message | null>(null);
+  readonly parameters = signal<WalkParameters>(defaultParameters);
+  readonly mode = signal<Mode>('seeds');
+  readonly tool = signal<Tool>('seed');
+  /** Labels that came with an embedded result, until another segmentation takes their place. */
+  readonly givenLabels = signal<Uint32Array | null>(null);
+  readonly curves = signal<Curves | null>(null);
+
+  /** The segment of each face, null before there are segments. */
+  readonly segmentOfFace = computed(() =>
+    this.mode.value === 'seeds'
+      ? this.seeds.segmentOfFace.value
+      : (this.automatic.segmentOfFace.value ?? this.givenLabels.value),
+  );
+
+  readonly segments = computed<ShownSegment[]>(() => {
+    const segmentOfFace = this.segmentOfFace.value;
+    const mesh = this.mesh.value;
+    if (!segmentOfFace || segmentOfFace.length !== mesh?.faces) return [];
+    const segments = segmentsOf(segmentOfFace, mesh.faceAreas);
+    return this.mode.value === 'seeds'
+      ? this.named(segments)
+      : this.coloredApart(segments, neighboursOf(segments, segmentOfFace, mesh.adjacentFaces), segmentOfFace);
+  });
+
+  /** The colour, as an index into the palette, that faces had in the last automatic segmentation. */
+  private paletteOfFace: Uint8Array | null = null;
+
+  constructor() {
+    effect(() => {
+      if (this.appearance.boundaries.value && this.segmentOfFace.value) void this.findCurves();
+      else this.curves.value = null;
+    });
+    effect(() => {
+      this.mode.value; // labels of one mode mean nothing in the other
+      this.automatic.level.value;
+      this.appearance.showAll();
+    });
+  }
+
+  /** Opens another mesh. The one before stays if that fails. */
+  async open(name: string, source: () => Promise<MeshSource> | MeshSource): Promise<boolean> {
+    if (this.opening.peek() !== null) return false;
+    this.automatic.cancel();
+    this.opening.value = name;
+    try {
+      const mesh = await this.engine.load(await source(), this.parameters.peek());
+      batch(() => {
+        this.paletteOfFace = null;
+        this.givenLabels.value = null;
+        this.curves.value = null;
+        this.appearance.reset();
+        this.automatic.reset();
+        this.seeds.reset();
+        this.mesh.value = mesh;
+        this.name.value = name;
+        this.message.value = mesh.notes.length > 0 ? { kind: 'note', text: mesh.notes.join(' ') } : null;
+      });
+      return true;
+    } catch (error) {
+      this.report(error, `${name} was not opened. `);
+      return false;
+    } finally {
+      this.opening.value = null;
+    }
+  }
+
+  openFile(file: File): Promise<boolean> {
+    return this.open(file.name, async () => ({ fileName: file.name, bytes: new Uint8Array(await file.arrayBuffer()) }));
+  }
+
+  openModel(model: string): Promise<boolean> {
+    return this.open(modelName(model), () => ({ model }));
+  }
+
+  setParameters(parameters: Partial<WalkParameters>): void {
+    this.parameters.value = { ...this.parameters.peek(), ...parameters };
+    if (this.mesh.peek()) void this.prepare();
+  }
+
+  resetParameters(): void {
+    this.setParameters(defaultParameters);
+  }
+
+  /** Tells the user of an error. */
+  report(error: unknown, prefix = ''): void {
+    if (error instanceof Cancelled) return;
+    this.message.value = { kind: 'error', text: prefix + (error instanceof Error ? error.message : String(error)) };
+  }
+
+  private readonly prepare = latest(async () => {
+    try {
+      await this.engine.prepare(this.parameters.peek());
+      await this.seeds.recompute();
+    } catch (error) {
+      this.report(error);
+    }
+  });
+
+  private readonly findCurves = latest(async () => {
+    const segmentOfFace = this.segmentOfFace.peek();
+    if (!segmentOfFace || !this.appearance.boundaries.peek()) return;
+    try {
+      const curves = await this.engine.smoothBoundaries(segmentOfFace);
+      if (segmentOfFace === this.segmentOfFace.peek()) this.curves.value = curves;
+    } catch (error) {
+      this.report(error);
+    }
+  });
+
+  /** Segments with the names and colours of their labels. Components without seeds have neither. */
+  private named(segments: Segment[]): ShownSegment[] {
+    const labels = new Map(this.seeds.annotation.value.labels.map((label) => [label.id, label]));
+    return segments.map((segment) => {
+      const label = labels.get(segment.label);
+      return {
+        ...segment,
+        name: label?.name ?? `Unseeded ${segment.label + 1}`,
+        color: label ? colorOf(label.color) : palette[segment.label % palette.length],
+      };
+    });
+  }
+
+  /** Segments with colours unlike those of their neighbours, which faces keep from level to level where that suits. */
+  private coloredApart(segments: Segment[], neighbours: number[][], segmentOfFace: Uint32Array): ShownSegment[] {
+    const index = new Map(segments.map(({ label }, i) => [label, i]));
+    const former: (number | undefined)[] = [];
+    this.paletteOfFace?.forEach((color, face) => (former[index.get(segmentOfFace[face])!] ??= color));
+    const colors = segmentColors(neighbours, former);
+    this.paletteOfFace = Uint8Array.from(segmentOfFace, (label) => colors[index.get(label)!]);
+    return segments.map((segment, i) => ({ ...segment, name: `Part ${segment.label + 1}`, color: palette[colors[i]] }));
+  }
+}
+
+/** What a built-in model is called. */
+export function modelName(model: string): string {
+  return model[0].toUpperCase() + model.slice(1).replaceAll('_', ' ');
+}

@@ -1,0 +1,54 @@
+import { effect } from '@preact/signals-core';
+import type { Session } from '../model/Session';
+import type { HierarchyKind } from '../worker/EngineModule';
+import { byId, onClick, onSlide } from './dom';
+
+const remarks: Record<HierarchyKind, string> = {
+  graphical: 'Cuts animals, people and things along concave creases, as people do.',
+  engineering: 'Cuts machine parts into planes, cylinders, cones and other surfaces.',
+};
+
+/** The slider has no more steps than that: more parts are of no use to look at. */
+const mostParts = 200;
+
+/** Segments without seeds, and the slider over their hierarchy. */
+export function automaticPanel({ automatic, mesh }: Session): void {
+  const kinds = document.querySelectorAll<HTMLInputElement>('input[name=kind]');
+  for (const kind of kinds) kind.addEventListener('change', () => (automatic.kind.value = kind.value as HierarchyKind));
+  effect(() => {
+    for (const kind of kinds) kind.checked = kind.value === automatic.kind.value;
+    byId('kind-remark').textContent = remarks[automatic.kind.value];
+  });
+
+  const compute = byId<HTMLButtonElement>('compute');
+  compute.addEventListener('click', () => void automatic.compute());
+  onClick('cancel', () => automatic.cancel());
+  effect(() => {
+    const progress = automatic.progress.value;
+    const hadFocus = compute === document.activeElement;
+    compute.hidden = progress !== null || automatic.level.value !== null;
+    compute.disabled = !mesh.value;
+    byId('progress').hidden = progress === null;
+    byId<HTMLProgressElement>('progress-bar').value = progress ?? 0;
+    if (hadFocus && progress !== null) byId('cancel').focus();
+  });
+
+  const parts = byId<HTMLInputElement>('parts');
+  onSlide('parts', (value) => automatic.setParts(value));
+  effect(() => {
+    const level = automatic.level.value;
+    byId('level').hidden = level === null;
+    if (!level) return;
+    const { fewest, fragments, suggested, milliseconds } = level.hierarchy;
+    parts.min = String(fewest);
+    parts.max = String(Math.min(fragments, Math.max(mostParts, suggested, fewest)));
+    parts.value = String(level.parts);
+    byId('parts-value').textContent = String(level.parts);
+    byId('level-remark').textContent =
+      `The shape suggests ${suggested}. ` + (milliseconds > 0 ? `Found in ${seconds(milliseconds)}.` : '');
+  });
+}
+
+function seconds(milliseconds: number): string {
+  return milliseconds < 1000 ? `${Math.round(milliseconds)} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
+}

@@ -1,0 +1,65 @@
+/** The interface of the package's headers as WebAssembly, see `engine/`. All calls are synchronous. */
+export interface EngineModule {
+  /** The file name decides the format: .off, .ply, .obj, .stl. */
+  readMesh(bytes: Uint8Array, fileName: string): Engine | Failure;
+  /** Names of the models that can be generated. */
+  models(): string[];
+  generateMesh(model: string): Engine | Failure;
+}
+
+/** A mesh, the walk on its faces and the seeds. */
+export interface Engine {
+  mesh(): MeshData | Failure;
+  /** Computes everything that does not depend on seeds, which are kept. */
+  prepare(convexWeight: number, sigma: number): void | Failure;
+  addSeed(face: number, label: number): void | Failure;
+  removeSeed(face: number): void | Failure;
+  clearSeeds(): void | Failure;
+  /** The label of each face; components without a seed get the next unused labels. */
+  segment(): Uint32Array | Failure;
+  /** The probability of a label for each face. */
+  probabilities(label: number): Float32Array | Failure;
+  /** @param progress told the part done, in [0, 1]; false cancels */
+  hierarchy(kind: HierarchyKind, progress: (fraction: number) => boolean): Hierarchy | Failure;
+  smoothBoundaries(labels: Uint32Array): Curves | Failure;
+  /** Frees the memory. */
+  delete(): void;
+}
+
+export interface Failure {
+  error: string;
+}
+
+export interface MeshData {
+  /** Three coordinates a vertex. */
+  positions: Float32Array;
+  /** Three vertices a triangle; polygons are cut into fans. */
+  triangles: Uint32Array;
+  faceOfTriangle: Uint32Array;
+  faces: number;
+  faceAreas: Float64Array;
+  /** What was repaired, one sentence each. */
+  notes: string[];
+}
+
+export type HierarchyKind = 'graphical' | 'engineering';
+
+/** All levels of an automatic segmentation, from fragments to connected components. */
+export interface Hierarchy {
+  fragmentOfFace: Uint32Array;
+  /** Two regions a merge; merge i makes region `fragments` + i. */
+  merges: Uint32Array;
+  costs: Float64Array;
+  fragments: number;
+  /** The number of connected components. */
+  fewest: number;
+  /** The number of segments that the shape suggests. */
+  suggested: number;
+  milliseconds: number;
+}
+
+/** Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */
+export interface Curves {
+  points: Float32Array;
+  starts: Uint32Array;
+}

@@ -1,0 +1,41 @@
+import type { Seeds } from '../model/seeds';
+import type { Curves, Hierarchy, HierarchyKind, MeshData } from './EngineModule';
+
+/** Where a mesh comes from. */
+export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: string };
+
+/** What makes faces different from their neighbours. */
+export interface WalkParameters {
+  convexWeight: number;
+  sigma: number;
+}
+
+/** The values of the paper. */
+export const defaultParameters: WalkParameters = { convexWeight: 0.2, sigma: 1 };
+
+export interface LoadedMesh extends MeshData {
+  /** Pairs of faces that share an edge. */
+  adjacentFaces: Uint32Array;
+}
+
+/** What the page can ask of the worker. */
+export interface Calls {
+  models(): string[];
+  /** Reads and prepares a mesh. The former one stays if that fails. */
+  load(source: MeshSource, parameters: WalkParameters): LoadedMesh;
+  prepare(parameters: WalkParameters): void;
+  /** The label of each face; null without seeds. */
+  segment(seeds: Seeds): Uint32Array | null;
+  /** The probability of a label for each face. */
+  probabilities(seeds: Seeds, label: number): Float32Array;
+  hierarchy(kind: HierarchyKind): Hierarchy;
+  smoothBoundaries(labels: Uint32Array): Curves;
+}
+
+export type Request = {
+  [Name in keyof Calls]: { id: number; name: Name; values: Parameters<Calls[Name]> };
+}[keyof Calls];
+
+/** `fatal` says that the worker can do no more. */
+export type Reply =
+  { id: number; result: unknown } | { id: number; error: string; fatal: boolean } | { id: number; progress: number };

@@ -1,0 +1,4 @@
+declare module 'engine' {
+  import type { EngineModule } from './EngineModule';
+  export default function createEngine(): Promise<EngineModule>;
+}

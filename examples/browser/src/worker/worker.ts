@@ -1,0 +1,113 @@
+import createEngine from 'engine';
+import { seedEdit, type Seeds } from '../model/seeds';
+import { adjacentFaces } from './adjacentFaces';
+import type { Calls, LoadedMesh, MeshSource, Reply, Request, WalkParameters } from './calls';
+import type { Engine, Failure, Hierarchy, HierarchyKind } from './EngineModule';
+
+const moduleIsReady = createEngine();
+let engine: Engine | undefined;
+let seedsOfEngine = new Map<number, number>();
+
+/** The value, or throws what the engine reports. */
+function value<T>(result: T | Failure): T {
+  if (typeof result === 'object' && result !== null && 'error' in result) throw new Error(result.error);
+  return result as T;
+}
+
+function loaded(): Engine {
+  if (!engine) throw new Error('There is no mesh yet.');
+  return engine;
+}
+
+async function load(source: MeshSource, { convexWeight, sigma }: WalkParameters): Promise<LoadedMesh> {
+  const module = await moduleIsReady;
+  const next = value(
+    'model' in source ? module.generateMesh(source.model) : module.readMesh(source.bytes, source.fileName),
+  );
+  try {
+    value(next.prepare(convexWeight, sigma));
+    const mesh = value(next.mesh());
+    const result = { ...mesh, adjacentFaces: adjacentFaces(mesh.triangles, mesh.faceOfTriangle) };
+    engine?.delete();
+    engine = next;
+    seedsOfEngine = new Map();
+    return result;
+  } catch (error) {
+    next.delete();
+    throw error;
+  }
+}
+
+function setSeeds(seeds: Seeds): void {
+  const { removed, added } = seedEdit(seedsOfEngine, seeds);
+  for (const face of removed) {
+    value(loaded().removeSeed(face));
+    seedsOfEngine.delete(face);
+  }
+  for (const [face, label] of added) {
+    value(loaded().addSeed(face, label));
+    seedsOfEngine.set(face, label);
+  }
+}
+
+function hierarchy(kind: HierarchyKind, tell: (progress: number) => void): Hierarchy {
+  let told = 0;
+  return value(
+    loaded().hierarchy(kind, (progress) => {
+      if (progress >= told + 0.01) tell((told = progress));
+      return true;
+    }),
+  );
+}
+
+/** The calls, of which only some take long enough to tell their progress. */
+function calls(tell: (progress: number) => void) {
+  return {
+    models: async () => (await moduleIsReady).models(),
+    load,
+    prepare: ({ convexWeight, sigma }) => value(loaded().prepare(convexWeight, sigma)),
+    segment(seeds) {
+      setSeeds(seeds);
+      return seeds.size === 0 ? null : value(loaded().segment());
+    },
+    probabilities(seeds, label) {
+      setSeeds(seeds);
+      return value(loaded().probabilities(label));
+    },
+    hierarchy: (kind) => hierarchy(kind, tell),
+    smoothBoundaries: (labels) => value(loaded().smoothBoundaries(labels)),
+  } satisfies { [Name in keyof Calls]: (...values: Parameters<Calls[Name]>) => unknown };
+}
+
+async function answer(request: Request): Promise<void> {
+  const { id, name, values } = request;
+  const call = calls((progress) => post({ id, progress }))[name] as (...values: unknown[]) => unknown;
+  try {
+    const result = await call(...values);
+    post({ id, result }, buffers(result));
+  } catch (error) {
+    post({ id, error: messageOf(error), fatal: error instanceof WebAssembly.RuntimeError });
+  }
+}
+
+function messageOf(error: unknown): string {
+  if (error instanceof WebAssembly.RuntimeError)
+    return `The engine stopped, maybe for want of memory (${error.message}).`;
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** The buffers of the arrays in a result, which are handed over instead of copied. */
+function buffers(result: unknown): ArrayBuffer[] {
+  const parts = ArrayBuffer.isView(result) ? [result] : Object.values(result ?? {});
+  return parts.filter((part) => ArrayBuffer.isView(part)).map((array) => array.buffer as ArrayBuffer);
+}
+
+function post(reply: Reply, transfer: ArrayBuffer[] = []): void {
+  self.postMessage(reply, { transfer });
+}
+
+/** Requests are answered one after the other, in their order. */
+let last = Promise.resolve();
+self.onmessage = (event: MessageEvent<Request>) => {
+  last = last.then(() => answer(event.data));
+};
