@@ -43,7 +43,7 @@ export function exposeForTests(session: Session, stage: Stage): void {
       return { ...place, isVisible: mesh.hit(viewer.rayThrough(place.x, place.y))?.face === face };
     },
     colorOf: (face) => stage.shown?.colorOf(face) ?? [],
-    engineCalls: () => ({ ...session.engine.counts }),
+    engineCalls: () => ({ ...session.background.counts, ...session.engine.counts }),
     curves: () => (session.curves.peek()?.starts.length ?? 1) - 1,
     pictures: () => pictures,
   };

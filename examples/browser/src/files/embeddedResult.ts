@@ -38,7 +38,6 @@ export function readEmbeddedResult(text: string): EmbeddedResult | null {
       fragmentOfFace: new Uint32Array(bytes(hierarchy.fragmentOfFace).buffer),
       merges: new Uint32Array(bytes(hierarchy.merges).buffer),
       costs: new Float64Array(bytes(hierarchy.costs).buffer),
-      milliseconds: 0,
     },
   };
 }

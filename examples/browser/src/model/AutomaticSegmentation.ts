@@ -7,6 +7,8 @@ import { segmentsAtLevel } from './mergeTree';
 interface Level {
   hierarchy: Hierarchy;
   parts: number;
+  /** How long it took, if it was made here. */
+  milliseconds?: number;
 }
 
 /** Segments without seeds. The walk makes a hierarchy once; all numbers of parts are read off it. */
@@ -49,7 +51,9 @@ export class AutomaticSegmentation {
     this.progress.value = 0;
     try {
       const hierarchy = await this.engine.hierarchy(kind, (fraction) => (this.progress.value = fraction));
-      if (mesh === this.meshes) this.take(kind, { hierarchy, parts: hierarchy.suggested });
+      if (mesh === this.meshes) {
+        this.take(kind, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
+      }
     } catch (error) {
       if (!(error instanceof Cancelled)) this.report(error);
     } finally {

@@ -28,9 +28,12 @@ export interface Message {
 
 /** A mesh that is being segmented, and everything the page knows of it. */
 export class Session {
+  /** Answers edits of seeds. */
   readonly engine = new EngineClient();
+  /** Does what takes longer, so that edits need not wait for it. */
+  readonly background = new EngineClient();
   readonly seeds = new SeedSegmentation(this.engine, (error) => this.report(error));
-  readonly automatic = new AutomaticSegmentation(this.engine, (error) => this.report(error));
+  readonly automatic = new AutomaticSegmentation(this.background, (error) => this.report(error));
   readonly appearance = new Appearance();
 
   readonly mesh = signal<LoadedMesh | null>(null);
@@ -67,8 +70,8 @@ export class Session {
 
   constructor() {
     effect(() => {
+      this.curves.value = null;
       if (this.appearance.boundaries.value && this.segmentOfFace.value) void this.findCurves();
-      else this.curves.value = null;
     });
     effect(() => {
       this.mode.value; // labels of one mode mean nothing in the other
@@ -80,10 +83,11 @@ export class Session {
   /** Opens another mesh. The one before stays if that fails. */
   async open(name: string, source: () => Promise<MeshSource> | MeshSource): Promise<boolean> {
     if (this.opening.peek() !== null) return false;
-    this.automatic.cancel();
     this.opening.value = name;
     try {
-      const mesh = await this.engine.load(await source(), this.parameters.peek());
+      const content = await source();
+      const mesh = await this.engine.load(content, this.parameters.peek());
+      this.background.follow(content);
       batch(() => {
         this.paletteOfFace = null;
         this.givenLabels.value = null;
@@ -140,7 +144,7 @@ export class Session {
     const segmentOfFace = this.segmentOfFace.peek();
     if (!segmentOfFace || !this.appearance.boundaries.peek()) return;
     try {
-      const curves = await this.engine.smoothBoundaries(segmentOfFace);
+      const curves = await this.background.smoothBoundaries(segmentOfFace);
       if (segmentOfFace === this.segmentOfFace.peek()) this.curves.value = curves;
     } catch (error) {
       this.report(error);

@@ -1,4 +1,3 @@
-import type { Color } from './colorVision';
 import { distinct, palette, paletteDistance } from './palette';
 
 /**
@@ -6,7 +5,7 @@ import { distinct, palette, paletteDistance } from './palette';
  * deficiency.
  *
  * Segments keep the colour that they had where it suits. The others get, of the colours that are far enough from those
- * of the neighbours, the least used one. A segment with so many neighbours that none is far enough gets the farthest.
+ * of the neighbours, the least used one, if possible one that looks like no other in use. A segment with so many neighbours that none is far enough gets the farthest.
  *
  * @param neighbours the neighbours of each segment
  * @param former the colour that a segment had, as an index into the palette
@@ -24,19 +23,24 @@ export function segmentColors(neighbours: readonly number[][], former: readonly 
     }
     return smallest;
   };
+  /** How unlike all colours in use each colour is. */
+  const rarity = palette.map(() => distinct);
   const take = (segment: number, color: number) => {
     choice[segment] = color;
     ++uses[color];
+    paletteDistance[color].forEach((distance, other) => (rarity[other] = Math.min(rarity[other], distance)));
   };
   const chooseBest = (segment: number) => {
+    const loss = (candidate: number) => [
+      -distanceToNeighbours(segment, candidate),
+      uses[candidate],
+      -rarity[candidate],
+    ];
     let best = 0;
-    let bestDistance = -1;
-    for (let candidate = 0; candidate < palette.length; ++candidate) {
-      const distance = distanceToNeighbours(segment, candidate);
-      if (distance > bestDistance || (distance === bestDistance && uses[candidate] < uses[best])) {
-        best = candidate;
-        bestDistance = distance;
-      }
+    let leastLoss = loss(0);
+    for (let candidate = 1; candidate < palette.length; ++candidate) {
+      const candidateLoss = loss(candidate);
+      if (isLess(candidateLoss, leastLoss)) [best, leastLoss] = [candidate, candidateLoss];
     }
     take(segment, best);
   };
@@ -53,6 +57,8 @@ export function segmentColors(neighbours: readonly number[][], former: readonly 
   return choice as number[];
 }
 
-export function paletteColors(indices: readonly number[]): Color[] {
-  return indices.map((i) => palette[i]);
+/** The lexicographic order. */
+function isLess(a: readonly number[], b: readonly number[]): boolean {
+  const first = a.findIndex((value, i) => value !== b[i]);
+  return first >= 0 && a[first] < b[first];
 }

@@ -39,13 +39,14 @@ export function automaticPanel({ automatic, mesh }: Session): void {
     const level = automatic.level.value;
     byId('level').hidden = level === null;
     if (!level) return;
-    const { fewest, fragments, suggested, milliseconds } = level.hierarchy;
+    const { fewest, fragments, suggested } = level.hierarchy;
     parts.min = String(fewest);
     parts.max = String(Math.min(fragments, Math.max(mostParts, suggested, fewest)));
     parts.value = String(level.parts);
     byId('parts-value').textContent = String(level.parts);
     byId('level-remark').textContent =
-      `The shape suggests ${suggested}. ` + (milliseconds > 0 ? `Found in ${seconds(milliseconds)}.` : '');
+      `The shape suggests ${suggested}. ` +
+      (level.milliseconds === undefined ? '' : `Found in ${seconds(level.milliseconds)}.`);
   });
 }
 

@@ -52,6 +52,7 @@ function labelRow({ seeds }: Session, id: number): Row<LabelRow> {
     onfocus: () => (seeds.currentLabel.value = id),
     onchange: () => seeds.changeLabel(id, { name: name.value.trim() || `Part ${id + 1}` }),
   });
+  let knownName = ''; // what is being typed stays when something else changes
   const count = element('span', { className: 'count' });
   const heat = element(
     'button',
@@ -74,7 +75,7 @@ function labelRow({ seeds }: Session, id: number): Row<LabelRow> {
       current.ariaLabel = `New seeds get the label ${label.name}`;
       color.value = label.color;
       color.ariaLabel = `Colour of ${label.name}`;
-      if (document.activeElement !== name || name.value.trim() === '') name.value = label.name;
+      if (label.name !== knownName || name.value.trim() === '') name.value = knownName = label.name;
       name.ariaLabel = `Name of label ${id + 1}`;
       count.textContent = label.seeds === 1 ? '1 seed' : `${label.seeds} seeds`;
       heat.ariaLabel = `Probability of ${label.name}`;

@@ -1,5 +1,6 @@
 import EngineWorker from './worker?worker&inline';
-import type { Calls, LoadedMesh, MeshSource, Reply, Request, WalkParameters } from './calls';
+import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
+import type { Curves, HierarchyKind } from './EngineModule';
 
 /** A computation that the user has ended. */
 export class Cancelled extends Error {
@@ -15,19 +16,23 @@ interface Pending {
 }
 
 /**
- * The engine in its worker, as the page sees it: each call gives a promise.
+ * The engine in a worker, as the page sees it: each call gives a promise.
  *
  * The engine computes without looking up, so that a computation is cancelled by ending its worker. A new one then gets
- * the mesh and the parameters again; the seeds come with each call.
+ * the mesh and the parameters again before the next call; the seeds come with each call.
  */
 export class EngineClient {
   /** How often each call was made. */
   readonly counts: Partial<Record<keyof Calls, number>> = {};
 
   private worker = this.startWorker();
+  private isAlive = false;
   private readonly pending = new Map<number, Pending>();
   private nextId = 0;
-  private loadedFrom: { source: MeshSource; parameters: WalkParameters } | undefined;
+  /** The mesh, and whether the worker has it. */
+  private source: MeshSource | null = null;
+  private parameters: WalkParameters | null = null;
+  private isLoaded = false;
 
   models(): Promise<string[]> {
     return this.call('models', []);
@@ -35,37 +40,53 @@ export class EngineClient {
 
   async load(source: MeshSource, parameters: WalkParameters): Promise<LoadedMesh> {
     const mesh = await this.call('load', [source, parameters]);
-    this.loadedFrom = { source, parameters };
+    Object.assign(this, { source, parameters, isLoaded: true });
     return mesh;
   }
 
+  /** Takes a mesh that another engine has loaded, when it is needed. Computations on the former one end. */
+  follow(source: MeshSource): void {
+    if (this.pending.size > 0) this.cancel();
+    this.source = source;
+    this.isLoaded = false;
+  }
+
   async prepare(parameters: WalkParameters): Promise<void> {
-    await this.call('prepare', [parameters]);
-    if (this.loadedFrom) this.loadedFrom.parameters = parameters;
+    await this.callOnMesh('prepare', [parameters]);
+    this.parameters = parameters;
   }
 
   segment(...values: Parameters<Calls['segment']>): Promise<Uint32Array | null> {
-    return this.call('segment', values);
+    return this.callOnMesh('segment', values);
   }
 
   probabilities(...values: Parameters<Calls['probabilities']>): Promise<Float32Array> {
-    return this.call('probabilities', values);
+    return this.callOnMesh('probabilities', values);
   }
 
-  hierarchy(
-    kind: Parameters<Calls['hierarchy']>[0],
-    onProgress: (fraction: number) => void,
-  ): Promise<ReturnType<Calls['hierarchy']>> {
-    return this.call('hierarchy', [kind], onProgress);
+  hierarchy(kind: HierarchyKind, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
+    return this.callOnMesh('hierarchy', [kind], onProgress);
   }
 
-  smoothBoundaries(labels: Uint32Array): Promise<ReturnType<Calls['smoothBoundaries']>> {
-    return this.call('smoothBoundaries', [labels]);
+  smoothBoundaries(labels: Uint32Array): Promise<Curves> {
+    return this.callOnMesh('smoothBoundaries', [labels]);
   }
 
   /** Ends all computations: their promises are rejected with `Cancelled`. */
   cancel(): void {
     this.restart(new Cancelled());
+  }
+
+  private callOnMesh<Name extends keyof Calls>(
+    name: Name,
+    values: Parameters<Calls[Name]>,
+    onProgress?: (fraction: number) => void,
+  ): Promise<ReturnType<Calls[Name]>> {
+    if (!this.isLoaded && this.source) {
+      this.isLoaded = true;
+      this.call('follow', [this.source, this.parameters]).catch(() => (this.isLoaded = false));
+    }
+    return this.call(name, values, onProgress);
   }
 
   private call<Name extends keyof Calls>(
@@ -84,11 +105,16 @@ export class EngineClient {
   private startWorker(): Worker {
     const worker = new EngineWorker();
     worker.onmessage = (event: MessageEvent<Reply>) => this.receive(event.data);
-    worker.onerror = (event) => this.restart(new Error(`The engine stopped: ${event.message}`));
+    worker.onerror = (event) => {
+      const error = new Error(`The engine stopped: ${event.message}`);
+      if (this.isAlive) this.restart(error);
+      else this.rejectAll(error); // another one would not start either
+    };
     return worker;
   }
 
   private receive(reply: Reply): void {
+    this.isAlive = true;
     const call = this.pending.get(reply.id);
     if (!call) return;
     if ('progress' in reply) return call.onProgress?.(reply.progress);
@@ -100,13 +126,14 @@ export class EngineClient {
 
   private restart(reason: Error): void {
     this.worker.terminate();
-    const interrupted = [...this.pending.values()];
-    this.pending.clear();
     this.worker = this.startWorker();
-    if (this.loadedFrom) {
-      const { source, parameters } = this.loadedFrom;
-      this.call('load', [source, parameters]).catch(() => {}); // it has loaded before
-    }
-    for (const call of interrupted) call.reject(reason);
+    this.isLoaded = false;
+    this.rejectAll(reason);
+  }
+
+  private rejectAll(reason: Error): void {
+    const calls = [...this.pending.values()];
+    this.pending.clear();
+    for (const call of calls) call.reject(reason);
   }
 }

@@ -55,7 +55,6 @@ export interface Hierarchy {
   fewest: number;
   /** The number of segments that the shape suggests. */
   suggested: number;
-  milliseconds: number;
 }
 
 /** Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */

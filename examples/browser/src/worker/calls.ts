@@ -18,17 +18,23 @@ export interface LoadedMesh extends MeshData {
   adjacentFaces: Uint32Array;
 }
 
+export interface TimedHierarchy extends Hierarchy {
+  milliseconds: number;
+}
+
 /** What the page can ask of the worker. */
 export interface Calls {
   models(): string[];
   /** Reads and prepares a mesh. The former one stays if that fails. */
   load(source: MeshSource, parameters: WalkParameters): LoadedMesh;
+  /** Reads a mesh that another worker has read, and prepares the walk if there are parameters for it. */
+  follow(source: MeshSource, parameters: WalkParameters | null): void;
   prepare(parameters: WalkParameters): void;
   /** The label of each face; null without seeds. */
   segment(seeds: Seeds): Uint32Array | null;
   /** The probability of a label for each face. */
   probabilities(seeds: Seeds, label: number): Float32Array;
-  hierarchy(kind: HierarchyKind): Hierarchy;
+  hierarchy(kind: HierarchyKind): TimedHierarchy;
   smoothBoundaries(labels: Uint32Array): Curves;
 }
 

@@ -1,8 +1,8 @@
 import createEngine from 'engine';
 import { seedEdit, type Seeds } from '../model/seeds';
 import { adjacentFaces } from './adjacentFaces';
-import type { Calls, LoadedMesh, MeshSource, Reply, Request, WalkParameters } from './calls';
-import type { Engine, Failure, Hierarchy, HierarchyKind } from './EngineModule';
+import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
+import type { Engine, Failure, HierarchyKind } from './EngineModule';
 
 const moduleIsReady = createEngine();
 let engine: Engine | undefined;
@@ -19,15 +19,14 @@ function loaded(): Engine {
   return engine;
 }
 
-async function load(source: MeshSource, { convexWeight, sigma }: WalkParameters): Promise<LoadedMesh> {
+/** Reads a mesh, and takes it in the place of the former one if all goes well. */
+async function take<T>(source: MeshSource, use: (next: Engine) => T): Promise<T> {
   const module = await moduleIsReady;
   const next = value(
     'model' in source ? module.generateMesh(source.model) : module.readMesh(source.bytes, source.fileName),
   );
   try {
-    value(next.prepare(convexWeight, sigma));
-    const mesh = value(next.mesh());
-    const result = { ...mesh, adjacentFaces: adjacentFaces(mesh.triangles, mesh.faceOfTriangle) };
+    const result = use(next);
     engine?.delete();
     engine = next;
     seedsOfEngine = new Map();
@@ -36,6 +35,20 @@ async function load(source: MeshSource, { convexWeight, sigma }: WalkParameters)
     next.delete();
     throw error;
   }
+}
+
+function load(source: MeshSource, { convexWeight, sigma }: WalkParameters): Promise<LoadedMesh> {
+  return take(source, (next) => {
+    value(next.prepare(convexWeight, sigma));
+    const mesh = value(next.mesh());
+    return { ...mesh, adjacentFaces: adjacentFaces(mesh.triangles, mesh.faceOfTriangle) };
+  });
+}
+
+function follow(source: MeshSource, parameters: WalkParameters | null): Promise<void> {
+  return take(source, (next) => {
+    if (parameters) value(next.prepare(parameters.convexWeight, parameters.sigma));
+  });
 }
 
 function setSeeds(seeds: Seeds): void {
@@ -50,14 +63,16 @@ function setSeeds(seeds: Seeds): void {
   }
 }
 
-function hierarchy(kind: HierarchyKind, tell: (progress: number) => void): Hierarchy {
+function hierarchy(kind: HierarchyKind, tell: (progress: number) => void): TimedHierarchy {
   let told = 0;
-  return value(
+  const start = performance.now();
+  const hierarchy = value(
     loaded().hierarchy(kind, (progress) => {
       if (progress >= told + 0.01) tell((told = progress));
       return true;
     }),
   );
+  return { ...hierarchy, milliseconds: performance.now() - start };
 }
 
 /** The calls, of which only some take long enough to tell their progress. */
@@ -65,6 +80,7 @@ function calls(tell: (progress: number) => void) {
   return {
     models: async () => (await moduleIsReady).models(),
     load,
+    follow,
     prepare: ({ convexWeight, sigma }) => value(loaded().prepare(convexWeight, sigma)),
     segment(seeds) {
       setSeeds(seeds);

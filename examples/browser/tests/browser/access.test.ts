@@ -1,0 +1,201 @@
+import { once } from 'node:events';
+import { createServer } from 'node:http';
+import { readFileSync, writeFileSync } from 'node:fs';
+import type { AddressInfo } from 'node:net';
+import { pathToFileURL } from 'node:url';
+import { cube, offFile } from '../meshes';
+import { answer, engineWith, expect, pageFile, test } from './fixture';
+
+test('a mesh can be segmented with the keyboard alone', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const focusOn = async (id: string) => {
+    for (let i = 0; i < 60; ++i) {
+      await page.keyboard.press('Tab');
+      if ((await page.evaluate(() => document.activeElement?.id)) === id) return;
+    }
+    throw new Error(`Tab does not lead to ${id}.`);
+  };
+  await focusOn('canvas');
+  await page.keyboard.press('Enter');
+  let labels = await segmentation.labelsAfter(null);
+  expect(new Set(labels)).toEqual(new Set([0]));
+  await page.keyboard.press('2');
+  for (let i = 0; i < 10; ++i) await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('Enter');
+  labels = await segmentation.labelsAfter(labels);
+  expect(new Set(labels)).toEqual(new Set([0, 1]));
+  await segmentation.screenshot('keyboard');
+  await focusOn('tab-seeds');
+  await page.keyboard.press('ArrowRight');
+  await expect(page.locator('#automatic-panel')).toBeVisible();
+  await focusOn('compute');
+  await page.keyboard.press('Enter');
+  await expect(page.locator('#parts')).toBeVisible();
+  await focusOn('parts');
+  const before = Number(await page.locator('#parts').inputValue());
+  await page.keyboard.press('ArrowRight');
+  expect(new Set(await segmentation.labels()).size).toBe(before + 1);
+});
+
+test('every control has a name', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', cube(4));
+  for (const tab of ['seeds', 'automatic']) {
+    await page.click(`#tab-${tab}`);
+    const controls = await page.locator('button, select, input:not([hidden]), canvas').all();
+    for (const control of controls) if (await control.isVisible()) await expect(control).toHaveAccessibleName(/\S/);
+  }
+});
+
+test('the help lists the shortcuts and gives the focus back', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await page.locator('#help').focus();
+  await page.keyboard.press('Enter');
+  await expect(page.getByRole('dialog')).toContainText('Ctrl+Z');
+  await segmentation.screenshot('help');
+  await page.keyboard.press('p'); // not while the help is open
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('dialog')).toBeHidden();
+  await expect(page.locator('#help')).toBeFocused();
+  await expect(page.locator('input[value=seed]')).toBeChecked();
+});
+
+test('texts have the contrast that WCAG AA asks for, dark and light', async ({ segmentation }) => {
+  const { page } = segmentation;
+  for (const scheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme: scheme });
+    const contrasts = await page.evaluate(() => {
+      const style = getComputedStyle(document.documentElement);
+      const light = (name: string) => {
+        const probe = document.createElement('span');
+        probe.style.color = style.getPropertyValue(name);
+        document.body.append(probe);
+        const channels = getComputedStyle(probe)
+          .color.match(/\d+/g)!
+          .map((channel) => Number(channel) / 255);
+        probe.remove();
+        const [r, g, b] = channels.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const contrast = (a: string, b: string) => {
+        const [low, high] = [light(a), light(b)].sort((x, y) => x - y);
+        return (high + 0.05) / (low + 0.05);
+      };
+      return [
+        ...['--text', '--text-faint', '--accent'].flatMap((text) =>
+          ['--surface', '--accent-faint', '--ground', '--ground-far'].map((ground) => [text, ground]),
+        ),
+        ['--accent-text', '--accent'],
+        ['--error', '--error-faint'],
+      ].map(([text, ground]) => ({ text, ground, contrast: contrast(text, ground) }));
+    });
+    for (const pair of contrasts)
+      expect(pair.contrast, `${scheme}: ${pair.text} on ${pair.ground}`).toBeGreaterThanOrEqual(4.5);
+  }
+});
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+
+  test('everything is within the width, and the panel folds', async ({ segmentation }) => {
+    const { page } = segmentation;
+    await segmentation.openMesh('cube.off', cube(8));
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+    for (const control of await page.locator('.bar button, .bar select, .tools label').all()) {
+      const box = (await control.boundingBox())!;
+      expect(box.x).toBeGreaterThanOrEqual(0);
+      expect(box.x + box.width).toBeLessThanOrEqual(390);
+    }
+    const height = async () => (await page.locator('#canvas').boundingBox())!.height;
+    const before = await height();
+    await segmentation.screenshot('phone');
+    await page.click('#panel-toggle');
+    expect(await height()).toBeGreaterThan(before + 200);
+    await page.click('#panel-toggle');
+    expect(await height()).toBe(before);
+  });
+
+  test('a tap places a seed, a finger paints with the brush', async ({ segmentation }) => {
+    const { page } = segmentation;
+    const n = 8;
+    await segmentation.openMesh('cube.off', cube(n));
+    const front = 5 * n * n + (n * n) / 2 + n / 2;
+    const place = await segmentation.placeOf(front);
+    await page.touchscreen.tap(place.x, place.y);
+    await expect.poll(() => segmentation.seeds()).toEqual([[front, 0]]);
+    await page.getByText('Paint', { exact: true }).tap();
+    const touch = await page.context().newCDPSession(page);
+    const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', x?: number, y?: number) =>
+      touch.send('Input.dispatchTouchEvent', { type, touchPoints: x === undefined ? [] : [{ x, y: y! }] });
+    await send('touchStart', place.x, place.y);
+    for (let step = 1; step <= 5; ++step) await send('touchMove', place.x, place.y - 20 * step);
+    await send('touchEnd');
+    await expect.poll(async () => (await segmentation.seeds()).length).toBeGreaterThan(2);
+    expect(await segmentation.placeOf(front)).toEqual(place);
+  });
+});
+
+test('a result that was put into the page is shown when it is opened from disk', async ({ segmentation }, testInfo) => {
+  const mesh = cube(6);
+  const off = offFile(mesh.points, mesh.faces);
+  const hierarchy = answer((await engineWith('cube.off', off)).hierarchy('engineering', () => true));
+  const labels = Uint32Array.from(mesh.faces, (_, face) => Math.floor(face / 36));
+  const base64 = (array: Uint32Array | Float64Array) => Buffer.from(array.buffer).toString('base64');
+  const { fragments, fewest, suggested } = hierarchy;
+  const result = {
+    name: 'result.off',
+    mesh: Buffer.from(asciiPly(mesh)).toString('base64'),
+    labels: base64(labels),
+    hierarchy: {
+      fragmentOfFace: base64(hierarchy.fragmentOfFace),
+      merges: base64(hierarchy.merges),
+      costs: base64(hierarchy.costs),
+      fragments,
+      fewest,
+      suggested,
+    },
+    segments: 6,
+    mode: 'engineering',
+    seeds: [],
+  };
+  const begin = '<script type="application/json" id="embedded-result">';
+  const page = readFileSync(pageFile, 'utf8');
+  expect(page.split(begin)).toHaveLength(2);
+  const path = testInfo.outputPath('result.html');
+  writeFileSync(
+    path,
+    page.replace(`${begin}null<`, () => `${begin}${JSON.stringify(result)}<`),
+  );
+  await segmentation.goto(pathToFileURL(path).href);
+  await expect(segmentation.page.locator('#mesh-name')).toHaveText('result.off');
+  await expect(segmentation.page.locator('#parts')).toHaveValue('6');
+  expect(await segmentation.labels()).toEqual([...labels]);
+  await segmentation.page.locator('#parts').fill('5');
+  expect(new Set(await segmentation.labels()).size).toBe(5);
+  expect((await segmentation.engineCalls()).hierarchy).toBeUndefined();
+});
+
+function asciiPly({ points, faces }: { points: number[][]; faces: number[][] }): string {
+  const header = [
+    'ply\nformat ascii 1.0',
+    `element vertex ${points.length}\nproperty double x\nproperty double y\nproperty double z`,
+    `element face ${faces.length}\nproperty list uchar int vertex_indices\nend_header`,
+  ];
+  return (
+    [...header, ...points.map((p) => p.join(' ')), ...faces.map((f) => [f.length, ...f].join(' '))].join('\n') + '\n'
+  );
+}
+
+test('the page works from a static host', async ({ segmentation }) => {
+  const server = createServer((_, response) => {
+    response.setHeader('Content-Type', 'text/html');
+    response.end(readFileSync(pageFile));
+  }).listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  try {
+    await segmentation.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+    await expect(segmentation.page.locator('#mesh-name')).toHaveText('Hand');
+  } finally {
+    server.close();
+  }
+});

@@ -1,0 +1,68 @@
+import { bumpySphere, cube, offFile } from '../meshes';
+import { answer, engineWith, expect, test } from './fixture';
+
+test('the slider gives as many parts as it says, and the walk runs once', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await page.click('#tab-automatic');
+  await page.click('#compute');
+  const slider = page.locator('#parts');
+  await expect(slider).toBeVisible();
+  const suggested = Number(await slider.inputValue());
+  expect(new Set(await segmentation.labels()).size).toBe(suggested);
+  await segmentation.screenshot('automatic');
+  const [fewest, most] = [Number(await slider.getAttribute('min')), Number(await slider.getAttribute('max'))];
+  for (const parts of [fewest, fewest + 1, Math.min(9, most), most]) {
+    await slider.fill(String(parts));
+    expect(new Set(await segmentation.labels()).size).toBe(parts);
+    await expect(page.locator('#segment-count')).toHaveText(String(parts));
+  }
+  const calls = await segmentation.engineCalls();
+  expect(calls.hierarchy).toBe(1);
+  expect(calls.segment).toBeUndefined();
+});
+
+test('the parts are those that the engine finds', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(24);
+  await segmentation.openMesh('bumps.off', mesh);
+  await page.click('#tab-automatic');
+  await page.click('#compute');
+  await expect(page.locator('#parts')).toBeVisible();
+  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+  const { fragmentOfFace, fragments, suggested } = answer(engine.hierarchy('graphical', () => true));
+  expect(new Set(await segmentation.labels()).size).toBe(suggested);
+  if (fragments <= 200) {
+    await page.locator('#parts').fill(String(fragments));
+    const pairs = new Set((await segmentation.labels())?.map((label, face) => `${label} ${fragmentOfFace[face]}`));
+    expect(pairs.size).toBe(fragments);
+  }
+});
+
+test('machine parts have a hierarchy of their own', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', cube(12));
+  await page.click('#tab-automatic');
+  await page.getByText('Machine part').click();
+  await page.click('#compute');
+  await page.locator('#parts').fill('6');
+  const labels = (await segmentation.labels()) ?? [];
+  expect(new Set(labels).size).toBe(6);
+  for (let side = 0; side < 6; ++side) expect(new Set(labels.slice(side * 144, side * 144 + 144)).size).toBe(1);
+  await page.getByText('Natural shape').click();
+  await expect(page.locator('#compute')).toBeVisible();
+});
+
+test('a computation can be cancelled, and the page goes on as before', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('bumps.off', bumpySphere(224));
+  await page.click('#tab-automatic');
+  await page.click('#compute');
+  await page.click('#cancel');
+  await expect(page.locator('#compute')).toBeVisible();
+  await expect(page.locator('#message')).toBeHidden();
+  expect(await segmentation.labels()).toBeNull();
+  await page.click('#tab-seeds');
+  const box = (await page.locator('#canvas').boundingBox())!;
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  expect(new Set(await segmentation.labelsAfter(null))).toEqual(new Set([0]));
+});
