@@ -1,3 +1,4 @@
+import { effect } from '@preact/signals-core';
 import type { Session } from './model/Session';
 import type { Stage } from './view/Stage';
 
@@ -17,8 +18,8 @@ export interface SegmentationPage {
   engineCalls(): Record<string, number>;
   /** The number of boundary curves shown. */
   curves(): number;
-  /** The number of pictures drawn so far. */
-  pictures(): number;
+  /** The number of times that other segments were drawn. */
+  answers(): number;
 }
 
 declare global {
@@ -29,8 +30,12 @@ declare global {
 
 export function exposeForTests(session: Session, stage: Stage): void {
   const { viewer } = stage;
-  let pictures = 0;
-  viewer.onDrawn(() => ++pictures);
+  let answers = 0;
+  let drawnAnswers = 0;
+  viewer.onDrawn(() => (drawnAnswers = answers));
+  effect(() => {
+    if (session.segmentOfFace.value) ++answers;
+  });
   window.segmentationPage = {
     faces: () => session.mesh.peek()?.faces ?? 0,
     labels: () => (session.segments.peek().length > 0 ? [...session.segmentOfFace.peek()!] : null),
@@ -45,6 +50,6 @@ export function exposeForTests(session: Session, stage: Stage): void {
     colorOf: (face) => stage.shown?.colorOf(face) ?? [],
     engineCalls: () => ({ ...session.background.counts, ...session.engine.counts }),
     curves: () => (session.curves.peek()?.starts.length ?? 1) - 1,
-    pictures: () => pictures,
+    answers: () => drawnAnswers,
   };
 }

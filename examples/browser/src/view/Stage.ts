@@ -125,7 +125,7 @@ export class Stage {
       }
       this.markers.show(markers);
     }
-    this.viewer.draw();
+    this.viewer.drawSoon();
   }
 
   /** Curves stay where the mesh is, so that they are shown only while all of it is in place. */

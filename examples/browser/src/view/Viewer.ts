@@ -29,10 +29,11 @@ export class Viewer {
   private readonly raycaster = new Raycaster();
   private readonly bounds = new Sphere(new Vector3(), 1);
   private isScheduled = false;
+  private patience: ReturnType<typeof setTimeout> | undefined;
   private readonly listeners: (() => void)[] = [];
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: hasGraphicsCard(), alpha: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
 
@@ -51,8 +52,15 @@ export class Viewer {
     this.listeners.push(listener);
   }
 
+  /** Draws when something else is drawn, or after a while: for what is most often followed by more to draw. */
+  drawSoon(): void {
+    this.patience ??= setTimeout(() => this.draw(), 100);
+  }
+
   /** Draws with the next frame of the screen. */
   draw(): void {
+    clearTimeout(this.patience);
+    this.patience = undefined;
     if (this.isScheduled) return;
     this.isScheduled = true;
     requestAnimationFrame(() => {
@@ -151,4 +159,13 @@ export class Viewer {
     this.camera.aspect = clientWidth / clientHeight;
     this.drawNow();
   }
+}
+
+/** Whether pictures are made by a graphics card. Where the processor makes them, smooth edges take too long. */
+function hasGraphicsCard(): boolean {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const info = context?.getExtension('WEBGL_debug_renderer_info');
+  const renderer = info ? String(context?.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return !/swiftshader|llvmpipe|software|basic render/i.test(renderer);
 }
