@@ -54,3 +54,9 @@ export function bumpySphere(n: number): { points: number[][]; faces: number[][] 
     }
   return { points, faces };
 }
+
+/** With each polygon cut into triangles. */
+export function triangulated({ points, faces }: { points: number[][]; faces: number[][] }) {
+  const fan = (face: number[]) => face.slice(2).map((corner, i) => [face[0], face[i + 1], corner]);
+  return { points, faces: faces.flatMap(fan) };
+}

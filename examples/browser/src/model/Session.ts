@@ -48,6 +48,12 @@ export class Session {
   readonly givenLabels = signal<Uint32Array | null>(null);
   readonly curves = signal<Curves | null>(null);
 
+  /** Whether boundaries can be smoothed: they run across triangles. */
+  readonly canSmooth = computed(() => {
+    const mesh = this.mesh.value;
+    return !mesh || mesh.faceOfTriangle.length === mesh.faces;
+  });
+
   /** The segment of each face, null before there are segments. */
   readonly segmentOfFace = computed(() =>
     this.mode.value === 'seeds'
@@ -71,7 +77,8 @@ export class Session {
   constructor() {
     effect(() => {
       this.curves.value = null;
-      if (this.appearance.boundaries.value && this.segmentOfFace.value) void this.findCurves();
+      const isWanted = this.appearance.boundaries.value && this.canSmooth.value;
+      if (isWanted && this.segmentOfFace.value) void this.findCurves();
     });
     effect(() => {
       this.mode.value; // labels of one mode mean nothing in the other

@@ -21,7 +21,11 @@ export function toolsPanel(session: Session, stage: Stage, pointerTools: Pointer
   onClick('up', () => stage.turnUp());
   onClick('boundaries', () => toggleBoundaries(session));
   effect(() => {
-    byId('boundaries').ariaPressed = String(session.appearance.boundaries.value);
+    const button = byId<HTMLButtonElement>('boundaries');
+    const isPossible = session.canSmooth.value;
+    button.disabled = !isPossible;
+    button.ariaPressed = String(isPossible && session.appearance.boundaries.value);
+    button.title = isPossible ? 'Smooth boundaries (B)' : 'Only boundaries on triangle meshes can be smoothed';
   });
 }
 

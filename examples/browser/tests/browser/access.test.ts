@@ -162,10 +162,8 @@ test('a result that was put into the page is shown when it is opened from disk',
   const page = readFileSync(pageFile, 'utf8');
   expect(page.split(begin)).toHaveLength(2);
   const path = testInfo.outputPath('result.html');
-  writeFileSync(
-    path,
-    page.replace(`${begin}null<`, () => `${begin}${JSON.stringify(result)}<`),
-  );
+  const [before, after] = page.split(begin);
+  writeFileSync(path, before + begin + JSON.stringify(result) + after.slice(after.indexOf('</script>')));
   await segmentation.goto(pathToFileURL(path).href);
   await expect(segmentation.page.locator('#mesh-name')).toHaveText('result.off');
   await expect(segmentation.page.locator('#parts')).toHaveValue('6');

@@ -1,4 +1,4 @@
-import { cube, offFile } from '../meshes';
+import { cube, offFile, triangulated } from '../meshes';
 import { answer, engineWith, expect, test } from './fixture';
 
 const n = 10;
@@ -149,7 +149,6 @@ test('segments are hidden, shown alone, and moved apart', async ({ segmentation 
   const { page } = segmentation;
   await segmentation.openMesh('cube.off', mesh);
   await segmentation.seed(right, front);
-  await expect.poll(() => page.evaluate(() => window.segmentationPage.curves())).toBeGreaterThan(0);
   const isVisible = (face: number) => page.evaluate((face) => window.segmentationPage.placeOf(face).isVisible, face);
   const rows = page.locator('#segments > li');
   await expect(rows).toHaveCount(2);
@@ -169,4 +168,23 @@ test('segments are hidden, shown alone, and moved apart', async ({ segmentation 
   await segmentation.screenshot('apart');
   await page.locator('#explosion').fill('0');
   expect([await segmentation.placeOf(right), await segmentation.placeOf(front)]).toEqual(before);
+});
+
+test('smooth boundaries are drawn between segments of triangles, and are offered for no others', async ({
+  segmentation,
+}) => {
+  const { page } = segmentation;
+  const curves = () => page.evaluate(() => window.segmentationPage.curves());
+  await segmentation.openMesh('cube.off', mesh);
+  await expect(page.locator('#boundaries')).toBeDisabled();
+  await segmentation.openMesh('triangles.off', triangulated(mesh));
+  const labels = await segmentation.seed(2 * right, 2 * front);
+  await expect.poll(curves).toBeGreaterThan(0);
+  await page.keyboard.press('b');
+  await expect.poll(curves).toBe(0);
+  await page.keyboard.press('b');
+  await expect.poll(curves).toBeGreaterThan(0);
+  await page.keyboard.press('Control+Z');
+  expect(new Set(await segmentation.labelsAfter(labels)).size).toBe(1);
+  await expect.poll(curves).toBe(0);
 });
