@@ -15,7 +15,8 @@ import { PointerTools } from './view/PointerTools';
 import { Stage } from './view/Stage';
 
 const session = new Session();
-const stage = new Stage(session, byId<HTMLCanvasElement>('canvas'));
+statusPanel(session);
+const stage = newStage();
 const pointerTools = new PointerTools(session, stage, byId('brush-cursor'));
 
 frame(session);
@@ -25,8 +26,16 @@ segmentsPanel(session);
 savePanel(session, stage.viewer);
 openPanel(session);
 toolsPanel(session, stage, pointerTools);
-statusPanel(session);
 shortcuts(session, stage, pointerTools);
 exposeForTests(session, stage);
 
 if (!(await showEmbeddedResult(session))) await session.openModel('hand');
+
+function newStage(): Stage {
+  try {
+    return new Stage(session, byId<HTMLCanvasElement>('canvas'));
+  } catch (error) {
+    session.report(error, 'This browser cannot draw meshes: it has no WebGL 2. ');
+    throw error;
+  }
+}
