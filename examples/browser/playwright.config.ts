@@ -26,6 +26,8 @@ export default defineConfig({
   projects: [
     { name: 'unit', testDir: 'tests/unit' },
     { name: 'browser', testDir: 'tests/browser' },
+    { name: 'native', testDir: 'tests/native' },
+    { name: 'picture', testDir: 'tests/picture' },
     { name: 'benchmark', testDir: 'tests/benchmark' },
   ],
 });

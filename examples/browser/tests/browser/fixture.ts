@@ -109,10 +109,15 @@ export class SegmentationTester {
   }
 }
 
-/** The engine as Node runs it, with a mesh. */
-export async function engineWith(fileName: string, content: string): Promise<Engine> {
+/** The engine as Node runs it. */
+export async function engineModule(): Promise<EngineModule> {
   const { loadInNode } = await import(new URL('../../engine/load_in_node.mjs', import.meta.url).href);
-  const module: EngineModule = await loadInNode(pathToFileURL(`${build}engine.mjs`).href);
+  return loadInNode(pathToFileURL(`${build}engine.mjs`).href);
+}
+
+/** The engine with a mesh. */
+export async function engineWith(fileName: string, content: string): Promise<Engine> {
+  const module = await engineModule();
   const engine = answer(module.readMesh(new TextEncoder().encode(content), fileName));
   answer(engine.prepare(0.2, 1));
   return engine;

@@ -1,0 +1,80 @@
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import type { Engine, MeshData } from '../../src/worker/EngineModule';
+import { answer, engineModule, expect, pageFile, test } from '../browser/fixture';
+import { segmentsAtLevel } from '../../src/model/mergeTree';
+
+// What the page's engine and the tool segment_mesh, the same headers compiled natively, make of the same files.
+
+const tool = process.env.SEGMENT_MESH;
+if (!tool) throw new Error('SEGMENT_MESH must be the path of the tool segment_mesh');
+
+let folder = '';
+test.beforeEach(() => void (folder = mkdtempSync(join(tmpdir(), 'page-'))));
+test.afterEach(() => rmSync(folder, { recursive: true }));
+
+function segmentNatively(...options: string[]): void {
+  execFileSync(tool!, ['mesh.off', '--quiet', ...options], { cwd: folder });
+}
+
+const labelsIn = (file: string): number[] => readFileSync(join(folder, file), 'utf8').trim().split('\n').map(Number);
+
+function fileOf({ positions, triangles }: MeshData): string {
+  const rows = (numbers: ArrayLike<number>, before: string) =>
+    Array.from(
+      { length: numbers.length / 3 },
+      (_, i) => `${before}${numbers[3 * i]} ${numbers[3 * i + 1]} ${numbers[3 * i + 2]}`,
+    );
+  return [
+    'OFF',
+    `${positions.length / 3} ${triangles.length / 3} 0`,
+    ...rows(positions, ''),
+    ...rows(triangles, '3 '),
+  ].join('\n');
+}
+
+/** The engine with a generated mesh that is also the file mesh.off in the folder. */
+async function engineWithModel(model: string): Promise<{ engine: Engine; faces: number }> {
+  const module = await engineModule();
+  const content = fileOf(answer(answer(module.generateMesh(model)).mesh()));
+  writeFileSync(join(folder, 'mesh.off'), content);
+  const engine = answer(module.readMesh(new TextEncoder().encode(content), 'mesh.off'));
+  return { engine, faces: answer(engine.mesh()).faces };
+}
+
+for (const model of ['hand', 'quadruped', 'turned shaft'])
+  test(`seeds give ${model} the labels that they give natively`, async () => {
+    const { engine, faces } = await engineWithModel(model);
+    answer(engine.prepare(0.02, 1));
+    const seeds = [0.05, 0.3, 0.5, 0.7, 0.95].map((part) => Math.floor(part * faces));
+    for (const [label, face] of seeds.entries()) {
+      answer(engine.addSeed(face, label));
+      answer(engine.segment());
+    }
+    segmentNatively(...seeds.flatMap((face) => ['--seed', String(face)]), '--labels', 'labels.seg');
+    expect([...answer(engine.segment())]).toEqual(labelsIn('labels.seg'));
+  });
+
+for (const [model, kind, options] of [
+  ['hand', 'graphical', []],
+  ['quadruped', 'graphical', []],
+  ['turned shaft', 'engineering', ['--engineering']],
+] as const)
+  test(`${model} has the ${kind} parts that it has natively`, async () => {
+    const { engine } = await engineWithModel(model);
+    const hierarchy = answer(engine.hierarchy(kind, () => true));
+    segmentNatively(...options, '--labels', 'labels.seg');
+    expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
+  });
+
+test('a page that the tool writes shows what the tool found', async ({ segmentation }) => {
+  await engineWithModel('quadruped');
+  segmentNatively('--html', 'result.html', '--page', pageFile, '--labels', 'labels.seg');
+  await segmentation.goto(pathToFileURL(join(folder, 'result.html')).href);
+  await expect(segmentation.page.locator('#mesh-name')).toHaveText('mesh.off');
+  await expect.poll(() => segmentation.labels()).toEqual(labelsIn('labels.seg'));
+  await segmentation.screenshot('written-by-the-tool');
+});
