@@ -286,6 +286,22 @@ TEST(Smoothed_face_normals, OfFacesWithoutAreaAreThoseOfTheirSurroundings) {
   for (const Eigen::Vector3d& n : smoothed(shape)) EXPECT_LT((n - up).norm(), 1e-3);
 }
 
+TEST(Smoothed_face_normals, OfAFlatMeshAreNotChangedByFacesThatArePoints) {
+  meshes::Shape shape = meshes::plane(4);
+  for (const std::size_t v : {7, 11, 12}) shape.points[v] = shape.points[6];  // a square
+  for (unsigned order = 1; order <= 10; ++order) {
+    const auto faces_in_order = meshes::random_order(shape.faces.size(), order);
+    std::size_t unknown = 0;
+    for (const Eigen::Vector3d& n : smoothed(meshes::with_faces_in_order(shape, faces_in_order))) {
+      if (n.norm() == 0)
+        ++unknown;
+      else
+        EXPECT_LT((n - Eigen::Vector3d::UnitZ()).norm(), 1e-6);
+    }
+    EXPECT_LE(unknown, 2U);
+  }
+}
+
 TEST(Smoothed_face_normals, OfAFaceAloneAreItsOwnOrZero) {
   meshes::Shape shape;
   shape.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {7, 0, 0}};

@@ -164,19 +164,18 @@ class Face_diffusion {
       if (level.aggregate[root] != none) continue;
       grown.assign(1, static_cast<Index>(root));
       level.aggregate[root] = number;
-      const Link* strongest = nullptr;
+      Link strongest = {none, 0};  // links over edges without length have no weight
       for (std::size_t k = level.row[root]; k < level.row[root + 1]; ++k)
-        if (!strongest || level.links[k].weight > strongest->weight) strongest = &level.links[k];
+        if (level.links[k].weight > strongest.weight) strongest = level.links[k];
       for (std::size_t m = 0; m < grown.size(); ++m)
         for (std::size_t k = level.row[grown[m]]; k < level.row[grown[m] + std::size_t(1)]; ++k) {
           const auto [to, weight] = level.links[k];
-          if (grown.size() == largest || level.aggregate[to] != none || !(weight > strong * strongest->weight))
-            continue;
+          if (grown.size() == largest || level.aggregate[to] != none || !(weight > strong * strongest.weight)) continue;
           level.aggregate[to] = number;
           grown.push_back(to);
         }
-      if (grown.size() == 1 && strongest)
-        level.aggregate[root] = level.aggregate[strongest->to];
+      if (grown.size() == 1 && strongest.to != none)
+        level.aggregate[root] = level.aggregate[strongest.to];
       else
         ++number;
     }
