@@ -2,6 +2,7 @@
 #define RW_SEGMENTATION_DUAL_GRAPH_H
 
 #include <RW_segmentation/internal/Descriptor_index.h>
+#include <RW_segmentation/internal/check_number.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
@@ -73,9 +74,8 @@ class Dual_graph {
   /// \throws std::invalid_argument if an edge names a face that is not there, or the same face twice
   /// Complexity: linear.
   Dual_graph(std::size_t number_of_faces, std::vector<std::array<Index, 2>> edges) : ends_(std::move(edges)) {
-    constexpr std::size_t limit = std::numeric_limits<Index>::max();
-    if (number_of_faces >= limit || ends_.size() >= limit / 2)
-      throw std::length_error("Dual_graph: more faces or edges than 32 bits can number");
+    internal::check_number(number_of_faces, "faces");
+    internal::check_number(2 * ends_.size(), "directed edges");
     row_.assign(number_of_faces + 1, 0);
     for (const auto& [f, g] : ends_) {
       if (f >= number_of_faces || g >= number_of_faces || f == g)
@@ -156,8 +156,11 @@ class Mesh_dual_graph : public Dual_graph {
   static constexpr Index none = std::numeric_limits<Index>::max();
 
   /// Reads the connectivity of the mesh; keeps no reference to it.
+  /// \throws std::length_error if there are 2^32 - 1 faces or more, or as many halfedges
   /// Complexity: linear.
   explicit Mesh_dual_graph(const FaceListGraph& mesh) {
+    internal::check_number(num_faces(mesh), "faces");
+    internal::check_number(2 * std::size_t(num_edges(mesh)), "halfedges");
     const auto null_face = boost::graph_traits<FaceListGraph>::null_face();
     faces_.reserve(num_faces(mesh));
     index_.reserve(num_faces(mesh));

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,9 @@ class Elimination_plan {
 
   Elimination_plan() = default;
 
+  /// \throws std::length_error if the ordering cannot number so many faces and edges
+  static void check_size(std::size_t faces, std::size_t edges);
+
   /// Complexity: that of the minimum degree ordering, nearly linear in practice.
   explicit Elimination_plan(const Dual_graph& graph) {
     number_faces(graph, minimum_degree_order(graph));
@@ -135,11 +139,16 @@ class Elimination_plan {
   }
 };
 
+inline void Elimination_plan::check_size(std::size_t faces, std::size_t edges) {
+  if (faces + 2 * edges > std::size_t(std::numeric_limits<int>::max()) / 2)
+    throw std::length_error("Star_mesh_elimination: " + std::to_string(faces) +
+                            " faces are too many for the minimum degree ordering");
+}
+
 inline std::vector<Dual_graph::Index> Elimination_plan::minimum_degree_order(const Dual_graph& graph) {
   using Pattern = Eigen::SparseMatrix<signed char, Eigen::ColMajor, int>;
   const std::size_t n = graph.number_of_faces();
-  if (n + 2 * graph.number_of_edges() > std::size_t(std::numeric_limits<int>::max()) / 2)
-    throw std::length_error("Star_mesh_elimination: too many faces for the minimum degree ordering");
+  check_size(n, graph.number_of_edges());
   // The ordering takes a matrix without a stored diagonal for a dense one.
   Pattern pattern(static_cast<int>(n), static_cast<int>(n));
   pattern.resizeNonZeros(static_cast<int>(n + 2 * graph.number_of_edges()));

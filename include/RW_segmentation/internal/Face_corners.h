@@ -4,6 +4,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Descriptor_index.h>
 #include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/check_number.h>
 
 #include <Eigen/Core>
 
@@ -33,6 +34,7 @@ class Face_corners {
     using vertex_descriptor = typename boost::graph_traits<FaceListGraph>::vertex_descriptor;
     const Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
     Descriptor_index<vertex_descriptor> number;
+    check_number(num_vertices(mesh), "vertices");
     number.reserve(num_vertices(mesh));
     for (const vertex_descriptor v : vertices(mesh)) {
       number.insert(v, static_cast<Index>(points_.size()));

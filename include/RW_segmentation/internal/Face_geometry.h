@@ -3,6 +3,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Descriptor_index.h>
+#include <RW_segmentation/internal/check_number.h>
 #include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -127,6 +128,7 @@ void Unit_box_points<FaceListGraph, NamedParameters>::smooth(const FaceListGraph
   using Index = typename Descriptor_index<vertex_descriptor>::Index;
   Descriptor_index<vertex_descriptor> index;
   std::vector<Eigen::Vector3d> position;
+  check_number(num_vertices(mesh), "vertices");
   for (const vertex_descriptor v : vertices(mesh)) {
     if (halfedge(v, mesh) == boost::graph_traits<FaceListGraph>::null_halfedge()) continue;
     index.insert(v, static_cast<Index>(position.size()));

@@ -4,6 +4,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Descriptor_index.h>
 #include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/check_number.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -156,8 +157,8 @@ Triangle_surface triangle_surface(const FaceListGraph& mesh, const Mesh_dual_gra
                                   const NamedParameters& np) {
   using Index = Triangle_surface::Index;
   using Traits = boost::graph_traits<FaceListGraph>;
-  if (graph.number_of_faces() >= Triangle_surface::none / 3)
-    throw std::length_error("Triangle_surface: more faces than 32 bits can number the halfedges of");
+  check_number(3 * graph.number_of_faces(), "halfedges");
+  check_number(num_vertices(mesh), "vertices");
 
   const Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
   Descriptor_index<typename Traits::vertex_descriptor> number;
