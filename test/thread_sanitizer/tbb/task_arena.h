@@ -1,0 +1,1 @@
+#include "../tbb_of_threads.h"
