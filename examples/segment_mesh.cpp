@@ -3,6 +3,7 @@
 #include "segment_mesh/Options.h"
 #include "segment_mesh/Task.h"
 #include "segment_mesh/command_line.h"
+#include "segment_mesh/limits.h"
 #include "segment_mesh/man_page.h"
 #include "segment_mesh/report.h"
 #include "segment_mesh/run.h"
@@ -46,12 +47,14 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (options.is_man_page_wanted) return std::fputs(man_page(app).c_str(), stdout) >= 0 ? success : unwritable_output;
     check_combinations(options);
+    survive_full_disks();
+    if (options.bytes) limit_memory(*options.bytes);
     const std::vector<Task> tasks = tasks_of(options);
     return options.has_several_meshes() ? run_all(tasks, options) : run_one(tasks[0], options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? success : wrong_usage;
   } catch (const std::exception&) {
-    const Outcome outcome = failure(options.meshes.empty() ? options.list : options.meshes[0]);
+    const Outcome outcome = failure(options.meshes.empty() ? options.list : options.meshes[0], options);
     say(outcome.message);
     return outcome.code;
   }

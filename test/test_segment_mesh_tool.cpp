@@ -10,6 +10,8 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -73,9 +75,12 @@ class Segment_mesh_tool : public testing::Test {
   }
 
   /// Starts the tool in the folder; standard output and errors go to two files elsewhere.
-  pid_t start(const std::vector<std::string>& arguments) const {
+  /// \param prepare is called in the new process
+  pid_t start(
+      const std::vector<std::string>& arguments, void (*prepare)() = [] {}) const {
     const pid_t process = fork();
     if (process == 0) {
+      prepare();
       std::filesystem::current_path(folder_);
       if (!std::freopen(output_.c_str(), "w", stdout) || !std::freopen(errors_.c_str(), "w", stderr)) _exit(99);
       std::vector<char*> pointers = {const_cast<char*>("segment_mesh")};
@@ -100,9 +105,11 @@ class Segment_mesh_tool : public testing::Test {
   Result run(const std::vector<std::string>& arguments) const { return wait(start(arguments)); }
 
   /// Runs the tool, which must fail with the code and one line that has the text in it, and change no file.
-  void expect_failure(int exit_code, const std::string& text, const std::vector<std::string>& arguments) const {
+  void expect_failure(
+      int exit_code, const std::string& text, const std::vector<std::string>& arguments,
+      void (*prepare)() = [] {}) const {
     const auto before = files();
-    const Result result = run(arguments);
+    const Result result = wait(start(arguments, prepare));
     const std::string shown = testing::PrintToString(arguments) + "\n" + result.errors;
     EXPECT_EQ(result.exit_code, exit_code) << shown;
     EXPECT_NE(result.errors.find(text), std::string::npos) << shown << "does not say " << text;
@@ -762,6 +769,19 @@ TEST_F(Segment_mesh_tool, ResumingDoesOnlyWhatIsMissingOrOlderThanTheMesh) {
   for (const std::string& name : names) EXPECT_EQ(labels(name + ".seg").size(), 6U);
 }
 
+TEST_F(Segment_mesh_tool, ResumingGoesOnAfterTheLastWholeLineOfTheReport) {
+  write("a.off", strip(3));
+  write("b.off", strip(3));
+  const std::vector<std::string> arguments = {"a.off",    "b.off",     "--labels", "%.seg",
+                                              "--report", "all.jsonl", "--resume"};
+  write("all.jsonl", "{\"mesh\": \"z.off\"}\n{\"mesh\": \"a.of");
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  std::istringstream report(content_of(path("all.jsonl")));
+  std::vector<std::string> meshes;
+  for (std::string line; std::getline(report, line);) meshes.push_back(nlohmann::json::parse(line)["mesh"]);
+  EXPECT_EQ(meshes, (std::vector<std::string>{"z.off", "a.off", "b.off"}));
+}
+
 TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
   write("a.off", strip(3));
   write("b.off", strip(3));
@@ -884,6 +904,145 @@ TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1);
 }
 
+// ---- What ends it early ----
+
+TEST_F(Segment_mesh_tool, KilledAtAnyMomentItLeavesTheOldOutputOrTheNewOne) {
+  write("grid.off", grid(100));
+  const std::vector<std::string> outputs = {"out.ply", "out.seg", "out.obj"},
+                                 task = {"grid.off", "--output", outputs[0], "--labels",    outputs[1], "--output",
+                                         outputs[2], "--seed",   "0",        "--smoothing", "0",        "--quiet"};
+  ASSERT_EQ(run(task).exit_code, 0);
+  const auto old = files();
+  const std::vector<std::string> new_task = task + std::vector<std::string>{"--seed", "9999"};
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(new_task).exit_code, 0);
+  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
+  const auto expected = files();
+  for (const std::string& name : outputs) ASSERT_NE(old.at(name), expected.at(name));
+
+  const auto is_writing = [&] {
+    for (const auto& entry : std::filesystem::directory_iterator(path("")))
+      if (entry.path().string().find(".part") != std::string::npos && entry.file_size() > 0) return true;
+    return false;
+  };
+  std::mt19937 random(1);
+  for (int round = 0; round < 30; ++round) {
+    for (const auto& [name, content] : old) write(name, content);
+    const pid_t process = start(new_task);
+    if (round % 2 == 0)
+      std::this_thread::sleep_for(std::uniform_real_distribution<>(0, 1)(random) * duration);
+    else
+      for (int i = 0; i < 100000 && !is_writing() && waitpid(process, nullptr, WNOHANG | WNOWAIT) == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    kill(process, SIGKILL);
+    wait(process);
+    const auto left = files();
+    for (const std::string& name : outputs)
+      EXPECT_TRUE(left.at(name) == old.at(name) || left.at(name) == expected.at(name)) << name;
+  }
+  EXPECT_EQ(run(new_task).exit_code, 0);  // whatever was left behind
+  for (const std::string& name : outputs) EXPECT_EQ(content_of(path(name)), expected.at(name));
+}
+
+TEST_F(Segment_mesh_tool, AFullDiskIsCodeFiveAndTheOldOutputsStay) {
+  write("grid.off", grid(30));
+  for (const char* name : {"l.seg", "l.ply", "l.json"}) write(name, "old");
+  expect_failure(5, "l.seg: File too large", {"grid.off", "--labels", "l.seg", "--seed", "0=1000000"}, [] {
+    const rlimit size = {1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &size);
+  });
+  if (!std::filesystem::exists("/dev/full")) return;
+  expect_failure(5, "/dev/full: No space left on device",
+                 {"grid.off", "-o", "l.ply", "--report", "l.json", "--labels", "/dev/full"});
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(Segment_mesh_tool, PipesAreWrittenToAndLinksStayLinks) {
+  write("strip.off", strip(3));
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const pid_t process = start({"strip.off", "--seed", "0=4", "--labels", "pipe"});
+  EXPECT_EQ(content_of(path("pipe")), "4\n4\n4\n4\n4\n4\n");
+  EXPECT_EQ(wait(process).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+
+  std::filesystem::create_directory(path("elsewhere"));
+  write("elsewhere/old.seg", "old");
+  std::filesystem::create_symlink("elsewhere/old.seg", path("link.seg"));
+  ASSERT_EQ(run({"strip.off", "--seed", "0=4", "--labels", "link.seg"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.seg")));
+  EXPECT_EQ(content_of(path("elsewhere/old.seg")), "4\n4\n4\n4\n4\n4\n");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("elsewhere")), {}), 1);
+}
+
+TEST_F(Segment_mesh_tool, WithAnyTimeLimitItWritesAllOrNothing) {
+  write("grid.off", grid(100));
+  write("l.seg", "old");
+  const std::vector<std::string> task = {"grid.off", "--labels", "l.seg", "--seed",
+                                         "0",        "--seed",   "99",    "--time-limit"};
+  const std::string text = "grid.off: the time limit is over, nothing was written";
+  expect_failure(7, text, task + std::vector<std::string>{"1e-9"});
+  for (double seconds = 1e-3; content_of(path("l.seg")) == "old"; seconds *= 1.5) {
+    const Result result = run(task + std::vector<std::string>{std::to_string(seconds)});
+    if (result.exit_code == 0) break;
+    EXPECT_EQ(result.exit_code, 7);
+    EXPECT_NE(result.errors.find(text), std::string::npos) << result.errors;
+    ASSERT_EQ(content_of(path("l.seg")), "old");
+    ASSERT_EQ(files().size(), 2U);
+  }
+  EXPECT_EQ(labels("l.seg").size(), 10000U);
+}
+
+TEST_F(Segment_mesh_tool, TheTimeLimitIsThatOfEachMesh) {
+  write("a.off", strip(3));
+  write("b.off", strip(3));
+  const Result result = run({"a.off", "b.off", "--labels", "%.seg", "--report", "all.jsonl", "--time-limit", "1e-9"});
+  EXPECT_EQ(result.exit_code, 6) << result.errors;
+  std::istringstream report(content_of(path("all.jsonl")));
+  for (std::string line; std::getline(report, line);) EXPECT_EQ(nlohmann::json::parse(line)["exit_code"], 7) << line;
+  EXPECT_EQ(number_of_lines(report.str()), 2U);
+  EXPECT_EQ(files().size(), 3U);
+}
+
+TEST_F(Segment_mesh_tool, LimitsAreCheckedBeforeAnythingIsDone) {
+  write("strip.off", strip(3));
+  for (const char* seconds : {"0", "-1", "nan", "soon"})
+    expect_failure(1, "--time-limit", {"strip.off", "--seed", "0", "--labels", "l.seg", "--time-limit", seconds});
+  for (const char* size : {"0", "-1", "63M", "1000", "2X", "much"})
+    expect_failure(1, "--max-memory", {"strip.off", "--seed", "0", "--labels", "l.seg", "--max-memory", size});
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs all the memory that there is
+
+TEST_F(Segment_mesh_tool, AMeshThatNeedsMoreMemoryIsGivenUpAndTheNextOneDone) {
+  write("big.off", grid(400));
+  write("small.off", strip(3));
+  const std::vector<std::string> limit = {"--seed", "0", "--seed", "5", "--max-memory", "64M"};
+  write("l.seg", "old");
+  expect_failure(7, "big.off: out of the memory that --max-memory allows",
+                 std::vector<std::string>{"big.off", "--labels", "l.seg"} + limit);
+  const Result result = run(std::vector<std::string>{"big.off", "small.off", "--labels", "%.seg", "--quiet"} + limit);
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_FALSE(std::filesystem::exists(path("big.seg")));
+  EXPECT_EQ(labels("small.seg").size(), 6U);
+  EXPECT_EQ(run({"big.off", "--quiet", "--seed", "0", "--seed", "5", "--max-memory", "4G"}).exit_code, 0);
+}
+
+TEST_F(Segment_mesh_tool, AHeaderThatPromisesBillionsTakesNoMemory) {
+  const std::string ply =
+      "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n";
+  write("lie.off", "OFF\n4000000000 4000000000 0\n");
+  write("text.ply", "ply\nformat ascii 1.0\n" + ply);
+  write("binary.ply", "ply\nformat binary_little_endian 1.0\n" + ply + std::string(100, '\0'));
+  write("lie.stl", std::string(80, ' ') + "\xff\xff\xff\xff" + std::string(100, '\0'));
+  write("degree.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n");
+  write("far.obj", "v 0 0 0\nf 1 2 4000000000\n");
+  for (const auto& [name, content] : files())
+    expect_failure(2, name, {name, "--seed", "0", "--labels", "l.seg", "--max-memory", "64M"});
+}
+
+#endif
+
 TEST_F(Segment_mesh_tool, HelpAndVersionGoToStandardOutput) {
   const Result help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
@@ -903,7 +1062,7 @@ TEST_F(Segment_mesh_tool, HelpAndVersionGoToStandardOutput) {
     ++options;
   }
   EXPECT_GT(options, 25U);
-  for (const char* code : {"0  success", "6  one or more", "130  cancelled"})
+  for (const char* code : {"0  success", "6  one or more", "7  the limit", "130  cancelled"})
     for (const std::string* text : {&help.output, &page.output}) EXPECT_NE(text->find(code), std::string::npos) << code;
   const Result version = run({"--version"});
   EXPECT_EQ(version.exit_code, 0);

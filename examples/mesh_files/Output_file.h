@@ -16,15 +16,23 @@
 namespace mesh_files {
 
 /// A file that appears whole or not at all: it is written under a temporary name in its own folder and gets its name
-/// by `commit()`. Without that, nothing remains.
+/// by `commit()`. Without that, nothing remains. What is there and no file, such as a pipe or a device, is written to as
+/// it is; a link stays a link.
 class Output_file {
  public:
   /// \throws Unwritable_file if the file cannot be created
   explicit Output_file(std::string path) : path_(std::move(path)) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path_, ignored)) throw Unwritable_file(path_ + ": this is a folder");
+    if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
+      file_ = std::fopen(path_.c_str(), "wb");
+      if (!file_) fail();
+      return;
+    }
+    if (std::filesystem::is_symlink(path_, ignored)) target_ = std::filesystem::canonical(path_, ignored).string();
+    if (target_.empty()) target_ = path_;
     // "x" refuses a name that is taken.
-    do temporary_path_ = path_ + ".part" + std::to_string(std::random_device()());
+    do temporary_path_ = target_ + ".part" + std::to_string(std::random_device()());
     while (!(file_ = std::fopen(temporary_path_.c_str(), "wbx")) && errno == EEXIST);
     if (!file_) fail();
   }
@@ -53,15 +61,16 @@ class Output_file {
   void commit() {
     const bool is_closed = std::fclose(file_) == 0;
     file_ = nullptr;
-    if (!is_closed || std::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail();
+    if (!is_closed) fail();
+    if (!temporary_path_.empty() && std::rename(temporary_path_.c_str(), target_.c_str()) != 0) fail();
     temporary_path_.clear();
   }
 
  private:
   [[noreturn]] void fail() const { throw Unwritable_file(path_ + ": " + std::strerror(errno)); }
 
-  std::string path_;
-  std::string temporary_path_;
+  std::string path_, target_;
+  std::string temporary_path_;  // empty if there is none
   std::FILE* file_ = nullptr;
 };
 

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@ enum Exit_code {
   failed_computation = 4,
   unwritable_output = 5,
   some_meshes_failed = 6,
+  reached_limit = 7,
   cancelled = 130,  // as shells report a program that Ctrl-C ended
 };
 
@@ -53,6 +55,8 @@ struct Options {
   Files files;       ///< a `%` in a path stands for the name of the mesh
   std::string page;  ///< of `files.html`; empty for the one that comes with the tool
   bool has_point_colors = false;
+  std::optional<double> seconds;       ///< for each mesh
+  std::optional<std::uint64_t> bytes;  ///< of memory
   bool is_quiet = false, is_man_page_wanted = false;
 
   bool has_seeds() const { return !seeds.empty() || !files.seeds.empty(); }
@@ -77,6 +81,8 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--hierarchy", "seeds make no hierarchy: give no seeds, or --segments or --seeds, too");
   if (options.is_smooth && !options.is_refined && files.boundaries.empty())
     throw CLI::ValidationError("--smooth", "nothing would show it: give --refine or --boundaries, too");
+  if (options.seconds && !(*options.seconds > 0))
+    throw CLI::ValidationError("--time-limit", "the number of seconds must be positive");
   for (const std::string& path : files.outputs) {
     const std::string extension = mesh_files::extension_of(path);
     if (extension != ".ply" && extension != ".off" && extension != ".obj")

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -148,6 +149,17 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--report", options.files.report, "What was done, as one line of JSON for each mesh")
       ->option_text("FILE")
       ->group("Output");
+  app.add_option("--time-limit", options.seconds,
+                 "Give up a mesh after so many seconds. Reading, repair and writing are not broken off.")
+      ->option_text("SECONDS")
+      ->group("Limits");
+  app.add_option("--max-memory", options.bytes,
+                 "Give up a mesh rather than take more memory, in bytes or as 800M or 2G; 64M or more")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(std::uint64_t(64) << 20, std::uint64_t(1) << 62))
+      ->option_text("SIZE")
+      ->group("Limits");
+
   app.add_flag("-q,--quiet", options.is_quiet, "Print nothing but errors")->group("Output");
 }
 

@@ -26,7 +26,8 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "Every output keeps the order of the faces in the file, only OBJ has them segment by segment. Faces that a "
      "repair\n"
      "leaves out get the label of the closest face; with --refine, the mesh is written without them. Outputs are\n"
-     "written whole or not at all. Without an output, the segments are only listed.\n",
+     "written whole or not at all: what was there stays until a new file is complete. Only a program that is killed\n"
+     "by SIGKILL leaves files .part* behind, which may be removed. Without an output, the segments are only listed.\n",
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"
@@ -45,6 +46,7 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "  4  failed computation\n"
      "  5  output that cannot be written\n"
      "  6  one or more of several meshes failed\n"
+     "  7  the limit of time or memory was reached\n"
      "130  cancelled by Ctrl-C or SIGTERM\n",
      true},
     {"Examples",

@@ -9,6 +9,7 @@
 #include "Segmentation.h"
 #include "Stages.h"
 #include "Task.h"
+#include "limits.h"
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
@@ -46,7 +47,7 @@ struct Outcome {
 };
 
 /// The outcome that the exception in flight stands for.
-inline Outcome failure(const std::string& mesh) {
+inline Outcome failure(const std::string& mesh, const Options& options) {
   try {
     throw;
   } catch (const CLI::ParseError& error) {
@@ -59,7 +60,10 @@ inline Outcome failure(const std::string& mesh) {
     return {unwritable_output, error.what()};
   } catch (const RW_segmentation::Cancelled&) {
     return {cancelled, "cancelled, nothing was written"};
+  } catch (const Out_of_time&) {
+    return {reached_limit, mesh + ": the time limit is over, nothing was written"};
   } catch (const std::bad_alloc&) {
+    if (options.bytes) return {reached_limit, mesh + ": out of the memory that --max-memory allows"};
     return {failed_computation, mesh + ": out of memory"};
   } catch (const std::exception& error) {
     return {failed_computation, mesh + ": " + error.what()};
@@ -137,7 +141,7 @@ Json segment_task(const Task& task, const Options& options, const Policy& number
 /// \param title of the progress bar
 /// \returns the report
 inline Json run(const Task& task, const Options& options, const std::string& title) {
-  Stages stages(!options.is_quiet, title, is_interrupted);
+  Stages stages(!options.is_quiet, title, is_interrupted, Deadline(options.seconds));
   if (options.is_engineering) return segment_task(task, options, RW_segmentation::Engineering_segmentation(), stages);
   if (options.is_paper) return segment_task(task, options, RW_segmentation::Paper_segmentation(), stages);
   return segment_task(task, options, default_policy(options), stages);

@@ -1,6 +1,7 @@
 #ifndef SEGMENT_MESH_RUN_ALL_H
 #define SEGMENT_MESH_RUN_ALL_H
 
+#include "../mesh_files.h"
 #include "Options.h"
 #include "Task.h"
 #include "report.h"
@@ -11,12 +12,23 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace segment_mesh {
+
+/// Takes a last line away that was broken off when the program was killed or the disk was full.
+inline void remove_partial_line(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  const std::string content = mesh_files::read_content(path);
+  const std::size_t whole_lines = content.rfind('\n') + 1;  // 0 if there is none
+  if (whole_lines < content.size()) std::filesystem::resize_file(path, whole_lines, ignored);
+}
 
 /// A file that gets one line for each mesh as soon as it is done, so that what is in it remains whatever happens next.
 class Journal {
@@ -25,6 +37,7 @@ class Journal {
   /// \param continues whether lines that are there stay
   Journal(std::string path, bool continues) : path_(std::move(path)) {
     if (path_.empty()) return;
+    if (continues) remove_partial_line(path_);
     file_.reset(std::fopen(path_.c_str(), continues ? "ab" : "wb"));
     if (!file_) fail();
   }
@@ -62,7 +75,7 @@ inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options)
       if (!options.is_quiet)
         std::printf("%s: %s\n", task.mesh.c_str(), counted(report["segments"].size(), "segment").c_str());
     } catch (const std::exception&) {
-      const Outcome outcome = failure(task.mesh);
+      const Outcome outcome = failure(task.mesh, options);
       if (outcome.code == cancelled) throw;
       say(outcome.message);
       journal.write({{"mesh", task.mesh}, {"error", outcome.message}, {"exit_code", outcome.code}});

@@ -1,0 +1,108 @@
+// How much memory reading a mesh file takes: a multiple of the file's size, whatever the file promises.
+
+#include "../examples/mesh_files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+std::size_t in_use = 0, most_in_use = 0;
+constexpr std::size_t size_of_note = alignof(std::max_align_t);  // before each block: its size
+
+void* allocate(std::size_t size) {
+  auto* const block = static_cast<char*>(std::malloc(size + size_of_note));
+  if (!block) throw std::bad_alloc();
+  *reinterpret_cast<std::size_t*>(block) = size;
+  in_use += size;
+  most_in_use = std::max(most_in_use, in_use);
+  return block + size_of_note;
+}
+
+void release(void* memory) {
+  if (!memory) return;
+  char* const block = static_cast<char*>(memory) - size_of_note;
+  in_use -= *reinterpret_cast<std::size_t*>(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+
+namespace {
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string result;
+  result.reserve(text.size() * times);
+  for (std::size_t i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+std::string ply(const std::string& format, std::size_t vertices, std::size_t faces, const std::string& rest) {
+  return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(vertices) +
+         "\nproperty char x\nproperty char y\nproperty char z\nelement face " + std::to_string(faces) +
+         "\nproperty list uchar uchar vertex_indices\nend_header\n" + rest;
+}
+
+/// The bytes that reading takes at most for each byte of the file.
+double bytes_for_each(const std::string& name, const std::string& content) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / (std::to_string(std::random_device()()) + name);
+  std::ofstream(path, std::ios::binary) << content;
+  const std::string file = path.string();
+  const std::size_t before = most_in_use = in_use;
+  try {
+    mesh_files::read_mesh(file);
+  } catch (const mesh_files::Unreadable_file&) {
+  }
+  const std::size_t taken = most_in_use - before;
+  std::filesystem::remove(path);
+  return static_cast<double>(taken) / static_cast<double>(content.size());
+}
+
+}  // namespace
+
+TEST(Memory_of_files, IsAMultipleOfTheFileWhateverItPromises) {
+  constexpr std::size_t n = 100000;
+  const std::string stl_header(80, ' ');
+  const std::vector<std::pair<std::string, std::string>> files = {
+      // As many vertices or faces as there is room for, and all there are.
+      {"vertices.off", "OFF\n" + std::to_string(n) + " 0 0\n" + repeated("0 0 0\n", n)},
+      {"faces.off", "OFF\n0 " + std::to_string(n) + " 0\n" + repeated("0\n", n)},
+      {"corners.off", "OFF\n1 1 0\n0 0 0\n" + std::to_string(n) + repeated(" 0", n) + "\n"},
+      {"vertices.obj", repeated("v 0 0 0\n", n)},
+      {"faces.obj", "v 0 0 0\n" + repeated("f\n", n)},
+      {"corners.obj", "v 0 0 0\nf" + repeated(" 1", n)},
+      {"text.ply", ply("ascii", n, n, repeated("0 0 0\n", n) + repeated("0\n", n))},
+      {"vertices.ply", ply("binary_little_endian", n, 0, std::string(3 * n, '\0'))},
+      {"faces.ply", ply("binary_big_endian", 0, n, std::string(n, '\0'))},
+      {"text.stl",
+       "solid\n" + repeated("facet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n", n) + "endsolid\n"},
+      // As many as there is room for, and none there are.
+      {"vertices_only_promised.off", "OFF\n" + std::to_string(n) + " 0 0\n" + std::string(5 * n, ' ')},
+      {"faces_only_promised.off", "OFF\n0 " + std::to_string(n) + " 0\n" + std::string(2 * n, ' ')},
+      {"only_promised.ply", ply("ascii", n, 0, std::string(6 * n, ' '))},
+      // Billions.
+      {"billions.off", "OFF\n4000000000 4000000000 0\n" + std::string(n, ' ')},
+      {"billions.ply", ply("ascii", 4000000000, 4000000000, std::string(n, ' '))},
+      {"billions_in_binary.ply", ply("binary_little_endian", 4000000000, 4000000000, std::string(n, '\0'))},
+      {"billions.stl", stl_header + "\xff\xff\xff\xff" + std::string(n, '\0')},
+      {"billions_of_corners.off", "OFF\n1 1 0\n0 0 0\n4000000000" + repeated(" 0", n) + "\n"}};
+  for (const auto& [name, content] : files) EXPECT_LT(bytes_for_each(name, content), 40) << name;
+}
