@@ -87,6 +87,18 @@ example_test(segment_mesh.refine segment_mesh
   PRINTS "\n    7 +[0-9]+ +[0-9.]+ %\n"
   WRITES boundaries.obj segments.ply segments.seg)
 
+# Under valgrind nothing is read before it is set, nor lost. CGAL's checks of rounding modes, which valgrind does not
+# know, are compiled in without NDEBUG.
+find_program(VALGRIND valgrind)
+mark_as_advanced(VALGRIND)
+if(VALGRIND AND TARGET segment_mesh AND data_dir AND CMAKE_BUILD_TYPE STREQUAL Release)
+  add_test(NAME example.segment_mesh.memcheck
+    COMMAND ${VALGRIND} --quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=99
+      $<TARGET_FILE:segment_mesh> ${meshes}/pipe.off --smooth --refine --output memcheck.ply --labels memcheck.seg
+    WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  set_tests_properties(example.segment_mesh.memcheck PROPERTIES LABELS example TIMEOUT 300)
+endif()
+
 # CGAL's remeshing and approximation of segments.
 example_test(pipeline pipeline ARGUMENTS ${meshes}/bear.off 0.05 .
   PRINTS "part 7: [0-9]+ faces, remeshed [1-9][0-9]+\n$"
