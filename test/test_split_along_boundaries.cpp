@@ -147,6 +147,16 @@ TEST(SplitAlongBoundariesOf, TatteredMeshesKeepSurfaceAndSegments) {
     }
 }
 
+// Where faces fold onto each other, no plane leads from one point of a curve to the next.
+TEST(SplitAlongBoundariesOf, CrumpledMeshesKeepSurfaceAndSegments) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), 0.3, seed);
+    Surface_mesh mesh = meshes::surface_mesh(shape);
+    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+    refine(mesh, labels);
+  }
+}
+
 TEST(SplitAlongBoundariesOf, NewVerticesLieOnOldEdges) {
   const Shape shape = bumpy_torus();
   const Surface_mesh before = meshes::surface_mesh(shape);
