@@ -16,6 +16,7 @@ import { sameSeeds, withoutSeeds, withSeeds } from './seeds';
 export class SeedSegmentation {
   private readonly history = signal(beginHistory(newAnnotation));
   readonly annotation = computed(() => this.history.value.present);
+  readonly labels = computed(() => this.annotation.value.labels);
   readonly canUndo = computed(() => this.history.value.past.length > 0);
   readonly canRedo = computed(() => this.history.value.future.length > 0);
 

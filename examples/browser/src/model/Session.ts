@@ -160,7 +160,7 @@ export class Session {
 
   /** Segments with the names and colours of their labels. Components without seeds have neither. */
   private named(segments: Segment[]): ShownSegment[] {
-    const labels = new Map(this.seeds.annotation.value.labels.map((label) => [label.id, label]));
+    const labels = new Map(this.seeds.labels.value.map((label) => [label.id, label]));
     return segments.map((segment) => {
       const label = labels.get(segment.label);
       return {

@@ -31,7 +31,7 @@ export function statusPanel(session: Session): void {
   byId('legend-scale').style.background = heatGradient;
   onClick('legend-close', () => seeds.showProbability(null));
   effect(() => {
-    const label = seeds.annotation.value.labels.find(({ id }) => id === seeds.probableLabel.value);
+    const label = seeds.labels.value.find(({ id }) => id === seeds.probableLabel.value);
     byId('legend').hidden = !label || session.mode.value !== 'seeds';
     byId('legend-title').textContent = label ? `Probability of “${label.name}”` : '';
   });

@@ -36,8 +36,7 @@ export function toggleBoundaries({ appearance }: Session): void {
 function hint({ mesh, mode, tool, seeds }: Session): string {
   if (!mesh.value) return 'Drop an OFF, PLY, OBJ or STL file here, or choose a model';
   if (mode.value !== 'seeds') return '';
-  const { labels } = seeds.annotation.value;
-  const name = labels.find((label) => label.id === seeds.currentLabel.value)?.name ?? '';
+  const name = seeds.labels.value.find((label) => label.id === seeds.currentLabel.value)?.name ?? '';
   const hints: Record<Tool, string> = {
     view: 'Drag to turn',
     seed: `Click the mesh to place a seed of “${name}”`,

@@ -55,7 +55,7 @@ function dots(): ShaderMaterial {
       void main() {
         fill = color.rgb;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-        gl_Position.z -= 0.003 * gl_Position.w;
+        gl_Position.z -= 0.006 * gl_Position.w;
         gl_PointSize = diameter;
       }`,
     fragmentShader: `

@@ -37,10 +37,10 @@ export class Viewer {
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
 
-    const headlight = new DirectionalLight(0xffffff, 1.7);
+    const headlight = new DirectionalLight(0xffffff, 1.4);
     headlight.position.set(0.4, 0.8, 1);
     this.camera.add(headlight, headlight.target);
-    this.scene.add(this.camera, this.content, new HemisphereLight(0xffffff, 0xc8ccd4, 1.7));
+    this.scene.add(this.camera, this.content, new HemisphereLight(0xffffff, 0xd4d8e0, 1.95));
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
