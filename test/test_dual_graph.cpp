@@ -40,7 +40,7 @@ TEST(Dual_graph, HasTheGivenEdgesOnBothSidesInTheirOrder) {
   for (Index f = 0; f < 5; ++f) {
     std::vector<std::pair<Index, Index>> expected, found;
     for (Index e = 0; e < edges.size(); ++e)
-      for (const std::size_t side : {0, 1})
+      for (const std::size_t side : {0U, 1U})
         if (edges[e][side] == f) expected.emplace_back(edges[e][1 - side], e);
     for (const auto& neighbour : graph.neighbours(f)) found.emplace_back(neighbour.face, neighbour.edge);
     EXPECT_EQ(found, expected) << f;
@@ -107,7 +107,7 @@ TEST(Dual_graph, RenumberedAlongTheSurfaceHasTheSameEdgesAndNeighboursCloseBy) {
   };
   for (Index e = 0; e < former.size(); ++e) {
     EXPECT_EQ(graph.edge(e), before.edge(former[e]));
-    for (const std::size_t side : {0, 1})
+    for (const std::size_t side : {0U, 1U})
       EXPECT_EQ(graph.face(graph.faces_of(e)[side]), before.face(before.faces_of(former[e])[side]));
     sum += length(graph.faces_of(e));
     sum_before += length(before.faces_of(e));

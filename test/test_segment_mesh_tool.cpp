@@ -418,7 +418,8 @@ TEST_F(Segment_mesh_tool, AnyNumberOfSegmentsIsExactAndReadOffTheHierarchy) {
     std::vector<std::size_t> parent(fragments + hierarchy["merges"].size());
     std::iota(parent.begin(), parent.end(), std::size_t(0));
     for (std::size_t merge = 0; merge < fragments - number; ++merge)
-      for (const int side : {0, 1}) parent[hierarchy["merges"][merge][side].get<std::size_t>()] = fragments + merge;
+      for (const std::size_t side : {0U, 1U})
+        parent[hierarchy["merges"][merge][side].get<std::size_t>()] = fragments + merge;
     std::set<std::pair<std::size_t, std::size_t>> pairs;  // segment in the hierarchy, label
     for (std::size_t f = 0; f < found.size(); ++f) {
       std::size_t region = hierarchy["fragment_of_face"][f];

@@ -64,7 +64,7 @@ void expect_the_same_with_threads_of_tbb([[maybe_unused]] const std::function<Re
     return work();
   };
   const Result expected = with(1);
-  for (const std::size_t threads : {2, 4}) EXPECT_EQ(with(threads), expected) << threads;
+  for (const std::size_t threads : {2U, 4U}) EXPECT_EQ(with(threads), expected) << threads;
 #else
   GTEST_SKIP() << "TBB is not linked";
 #endif
