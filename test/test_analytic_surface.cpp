@@ -202,6 +202,19 @@ TEST(FitOfAType, RefusesTooFewPointsAndFlatOnes) {
   }
 }
 
+TEST(FitOfAType, IsTheSameWithinALargestResidualAndNoneBeyondIt) {
+  for (const Piece& piece : pieces(0.5)) {
+    const Surface_samples samples = samples_of(piece, 0.01);
+    const auto found = fit_analytic_surface(piece.surface.type, samples);
+    ASSERT_TRUE(found);
+    const auto within = fit_analytic_surface(piece.surface.type, samples, 1.01 * found->residual);
+    ASSERT_TRUE(within);
+    expect_same(*within, *found, 1e-12);
+    EXPECT_FALSE(fit_analytic_surface(piece.surface.type, samples, 0.99 * found->residual));
+    EXPECT_FALSE(fit_analytic_surface(piece.surface.type, samples, 1e-6));
+  }
+}
+
 TEST(FitOfAType, SurvivesPointsThatCoincideOrLieOnALine) {
   Surface_samples point, line;
   for (int i = 0; i < 20; ++i) {
