@@ -82,6 +82,9 @@ class Engine {
   val segment() {
     return answer([&] { return array_of(session_.segment()); });
   }
+  val anticipate() {
+    return done([&] { session_.anticipate(); });
+  }
   val probabilities(Label label) {
     return answer([&] { return array_of(session_.probabilities(label)); });
   }
@@ -147,6 +150,7 @@ EMSCRIPTEN_BINDINGS(engine) {
       .function("removeSeed", &Engine::remove_seed)
       .function("clearSeeds", &Engine::clear_seeds)
       .function("segment", &Engine::segment)
+      .function("anticipate", &Engine::anticipate)
       .function("probabilities", &Engine::probabilities)
       .function("hierarchy", &Engine::hierarchy)
       .function("smoothBoundaries", &Engine::smooth_boundaries);

@@ -17,6 +17,8 @@ export interface Engine {
   clearSeeds(): void | Failure;
   /** The label of each face; components without a seed get the next unused labels. */
   segment(): Uint32Array | Failure;
+  /** While all seeds have one label: prepares for the first seed of another one, which takes long otherwise. */
+  anticipate(): void | Failure;
   /** The probability of a label for each face. */
   probabilities(label: number): Float32Array | Failure;
   /** @param progress told the part done, in [0, 1]; false cancels */

@@ -122,8 +122,13 @@ function post(reply: Reply, transfer: ArrayBuffer[] = []): void {
   self.postMessage(reply, { transfer });
 }
 
-/** Requests are answered one after the other, in their order. */
+/** Requests are answered one after the other, in their order. With none waiting there is time to prepare for the next. */
 let last = Promise.resolve();
+let waiting = 0;
 self.onmessage = (event: MessageEvent<Request>) => {
-  last = last.then(() => answer(event.data));
+  ++waiting;
+  last = last.then(async () => {
+    await answer(event.data);
+    if (--waiting === 0 && event.data.name === 'segment' && seedsOfEngine.size > 0) engine?.anticipate();
+  });
 };

@@ -119,7 +119,7 @@ export async function engineModule(): Promise<EngineModule> {
 export async function engineWith(fileName: string, content: string): Promise<Engine> {
   const module = await engineModule();
   const engine = answer(module.readMesh(new TextEncoder().encode(content), fileName));
-  answer(engine.prepare(0.2, 1));
+  answer(engine.prepare(0.02, 1));
   return engine;
 }
 

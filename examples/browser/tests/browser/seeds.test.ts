@@ -141,8 +141,8 @@ test('the sliders change what separates parts', async ({ segmentation }) => {
   answer(engine.addSeed(front, 1));
   const expected = [...answer(engine.segment())];
   await expect.poll(() => segmentation.labels()).toEqual(expected);
-  await page.getByText('As in the paper').click();
-  await expect(page.locator('#convex-weight')).toHaveValue('0.2');
+  await page.getByText('Usual values').click();
+  await expect(page.locator('#convex-weight')).toHaveValue('0.02');
 });
 
 test('segments are hidden, shown alone, and moved apart', async ({ segmentation }) => {

@@ -53,6 +53,7 @@ for (const model of ['hand', 'quadruped', 'turned shaft'])
     for (const [label, face] of seeds.entries()) {
       answer(engine.addSeed(face, label));
       answer(engine.segment());
+      answer(engine.anticipate());
     }
     segmentNatively(...seeds.flatMap((face) => ['--seed', String(face)]), '--labels', 'labels.seg');
     expect([...answer(engine.segment())]).toEqual(labelsIn('labels.seg'));
