@@ -493,6 +493,10 @@ TEST_F(Segment_mesh_tool, APageHoldsMeshLabelsAndLevels) {
   EXPECT_EQ(page["hierarchy"]["fragments"], hierarchy["fragments"]);
   EXPECT_EQ(page["hierarchy"]["fewest"], hierarchy["components"]);
   EXPECT_EQ(page["hierarchy"]["suggested"], 3);
+  ASSERT_EQ(run({name, "--html", "five.html", "--page", "page.html", "--segments", "5"}).exit_code, 0);
+  const auto five = result_in_page(content_of(path("five.html")), before, after);
+  EXPECT_EQ(five["segments"], 5);
+  EXPECT_EQ(five["hierarchy"]["suggested"], 3);
   const auto fragments = numbers_of_base64<std::uint32_t>(page["hierarchy"]["fragmentOfFace"]);
   EXPECT_EQ(nlohmann::json(fragments), hierarchy["fragment_of_face"]);
   const auto regions = numbers_of_base64<std::uint32_t>(page["hierarchy"]["merges"]);
@@ -833,6 +837,7 @@ TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
   expect_failure(1, "--seed: '1=2': labels have no meaning", {"strip.off", "--segments", "2", "--seed", "1=2"});
   expect_failure(1, "--probabilities", {"strip.off", "--probabilities", "p.txt"});
   expect_failure(1, "--hierarchy", {"strip.off", "--seed", "1", "--hierarchy", "h.json"});
+  expect_failure(1, "--page", {"strip.off", "--page", "page.html"});
   expect_failure(1, "out.stl is neither .ply nor .off nor .obj", {"strip.off", "--seed", "0", "-o", "out.stl"});
   expect_failure(1, "strip.off is an input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
   expect_failure(1, "a.off is an input or another output",

@@ -81,6 +81,8 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--hierarchy", "seeds make no hierarchy: give no seeds, or --segments or --seeds, too");
   if (options.is_smooth && !options.is_refined && files.boundaries.empty())
     throw CLI::ValidationError("--smooth", "nothing would show it: give --refine or --boundaries, too");
+  if (!options.page.empty() && files.html.empty())
+    throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
   if (options.seconds && !(*options.seconds > 0))
     throw CLI::ValidationError("--time-limit", "the number of seconds must be positive");
   for (const std::string& path : files.outputs) {

@@ -7,6 +7,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Kernel_traits.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -32,6 +33,24 @@ namespace segment_mesh {
 
 using Point = mesh_files::Polygon_soup::Point;
 using Mesh = CGAL::Surface_mesh<Point>;
+using Mesh_vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
+
+/// A property map over values in the order of the mesh's faces.
+template <class Value>
+auto face_map(const Mesh& mesh, std::vector<Value>& values) {
+  return boost::make_iterator_property_map(values.begin(), get(boost::face_index, mesh));
+}
+
+/// The area of a face in squares of `unit`.
+inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
+  const auto first = mesh.halfedge(f);
+  const Point& apex = mesh.point(mesh.source(first));
+  Mesh_vector twice_the_area = CGAL::NULL_VECTOR;
+  for (const auto h : mesh.halfedges_around_face(first))
+    twice_the_area = twice_the_area + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
+                                                          (mesh.point(mesh.target(h)) - apex) / unit);
+  return CGAL::approximate_sqrt(twice_the_area.squared_length()) / 2;
+}
 
 /// A halfedge mesh of the faces of a file.
 struct Oriented_mesh {

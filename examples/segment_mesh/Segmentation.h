@@ -17,8 +17,6 @@
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
-#include <boost/property_map/property_map.hpp>
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -29,14 +27,6 @@
 
 namespace segment_mesh {
 
-/// A property map over values in the order of the mesh's faces.
-template <class Value>
-auto face_map(const Mesh& mesh, std::vector<Value>& values) {
-  return boost::make_iterator_property_map(values.begin(), get(boost::face_index, mesh));
-}
-
-using Mesh_vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
-
 /// What is known of the faces of the mesh at the end.
 struct Segmentation {
   std::vector<std::size_t> label;                  ///< of each face
@@ -46,6 +36,7 @@ struct Segmentation {
   std::size_t seeds = 0, unseeded_components = 0, island_faces = 0, degenerate_faces = 0;
   bool has_heavy_noise = false;
   RW_segmentation::Merge_tree tree;                         ///< empty unless fragments were merged
+  std::size_t suggested = 0;                                ///< segments by the shape, whatever was asked for; likewise
   std::vector<std::size_t> fragment;                        ///< of each face, likewise
   std::vector<RW_segmentation::Analytic_surface> surfaces;  ///< of each label; only for parts of machines
 };
@@ -177,6 +168,9 @@ Segmentation segment_automatically(const Mesh& mesh, const std::vector<Face_labe
   result.degenerate_faces = hierarchy.report().degenerate_faces;
   result.has_heavy_noise = hierarchy.report().has_heavy_noise;
   result.tree = hierarchy;
+  Policy by_shape = policy;
+  by_shape.number_of_segments.reset();
+  result.suggested = by_shape.stop(hierarchy);
   return result;
 }
 

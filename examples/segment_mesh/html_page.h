@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -86,8 +87,8 @@ std::string base64_of(const std::vector<Value>& values) {
   return base64(bytes);
 }
 
-/// All levels of a segmentation as a page takes them; null if there is only one.
-inline Json levels_of(const Segmentation& result, std::size_t segments) {
+/// All levels of a segmentation as a page takes them; null where nothing was merged.
+inline Json levels_of(const Segmentation& result) {
   if (result.fragment.empty()) return nullptr;
   std::vector<std::size_t> regions;
   std::vector<double> costs;
@@ -100,7 +101,7 @@ inline Json levels_of(const Segmentation& result, std::size_t segments) {
           {"costs", base64_of<double>(costs)},
           {"fragments", result.tree.number_of_fragments()},
           {"fewest", result.tree.number_of_components()},
-          {"suggested", segments}};
+          {"suggested", result.suggested}};
 }
 
 /// A segmentation as a page takes it.
@@ -115,7 +116,7 @@ inline Json result_for_page(const std::string& path, const Mesh& mesh, const Seg
   return {{"name", std::filesystem::path(path).filename().string()},
           {"mesh", base64(ply)},
           {"labels", base64_of<std::uint32_t>(result.label)},
-          {"hierarchy", levels_of(result, segments)},
+          {"hierarchy", levels_of(result)},
           {"segments", segments},
           {"mode", mode},
           {"seeds", std::move(seeds)}};

@@ -20,17 +20,6 @@ struct Segment {
   mesh_files::Color color{};
 };
 
-/// The area of a face in squares of `unit`.
-inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
-  const auto first = mesh.halfedge(f);
-  const Point& apex = mesh.point(mesh.source(first));
-  Mesh_vector twice_the_area = CGAL::NULL_VECTOR;
-  for (const auto h : mesh.halfedges_around_face(first))
-    twice_the_area = twice_the_area + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
-                                                          (mesh.point(mesh.target(h)) - apex) / unit);
-  return CGAL::approximate_sqrt(twice_the_area.squared_length()) / 2;
-}
-
 /// Counts, areas and colours of the segments, in the order of their labels.
 inline std::vector<Segment> segments_of(const Mesh& mesh, const std::vector<std::size_t>& label) {
   std::vector<std::size_t> labels = label;

@@ -13,12 +13,7 @@
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
-#include <CGAL/Kernel_traits.h>
-
-#include <boost/property_map/property_map.hpp>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,6 +25,7 @@
 
 namespace browser_engine {
 
+using segment_mesh::face_map;
 using segment_mesh::Mesh;
 using segment_mesh::Point;
 using Label = std::uint32_t;
@@ -80,7 +76,7 @@ class Session {
           drawn.triangles.push_back(corner);
         drawn.face_of_triangle.push_back(f);
       }
-      drawn.face_areas.push_back(area(f));
+      drawn.face_areas.push_back(segment_mesh::face_area(mesh(), f, 1));
     }
     return drawn;
   }
@@ -88,8 +84,8 @@ class Session {
   /// Makes the walk anew for other numbers; the seeds stay.
   void prepare(double convex_weight, double sigma) {
     namespace RW = RW_segmentation;
-    std::vector<Vector> values(mesh().number_of_faces());
-    const auto normals = face_map(values);
+    std::vector<segment_mesh::Mesh_vector> values(mesh().number_of_faces());
+    const auto normals = face_map(mesh(), values);
     RW::smoothed_face_normals(mesh(), normals, RW::Normal_smoothing());
     const RW::Dihedral_difference difference(mesh(), normals, convex_weight, RW::Dihedral_measure::angle);
     Walk walk(mesh(), RW::Conductance(mesh(), difference, sigma));
@@ -105,7 +101,7 @@ class Session {
   /// The label of each face.
   std::vector<Label> segment() {
     std::vector<Label> labels(mesh().number_of_faces());
-    walk().segment(face_map(labels));
+    walk().segment(face_map(mesh(), labels));
     return labels;
   }
 
@@ -119,14 +115,19 @@ class Session {
     std::size_t face = (seeds.front().first + mesh().number_of_faces() / 2) % mesh().number_of_faces();
     while (walk().label_of_seed(checked(face))) face = (face + 1) % mesh().number_of_faces();
     walk().add_seed(checked(face), seeds.front().second + 1);
-    segment();
+    try {
+      segment();
+    } catch (...) {
+      walk().remove_seed(checked(face));
+      throw;
+    }
     walk().remove_seed(checked(face));
   }
 
   /// How probably a walk from each face meets a seed of the label first.
   std::vector<float> probabilities(Label label) {
     std::vector<float> result(mesh().number_of_faces());
-    walk().write_probabilities(label, face_map(result));
+    walk().write_probabilities(label, face_map(mesh(), result));
     return result;
   }
 
@@ -142,7 +143,7 @@ class Session {
     levels.components = hierarchy.number_of_components();
     levels.suggested = policy.stop(hierarchy);
     levels.fragment_of_face.resize(mesh().number_of_faces());
-    hierarchy.segments(RW::Segment_count_stop(levels.fragments), face_map(levels.fragment_of_face));
+    hierarchy.segments(RW::Segment_count_stop(levels.fragments), face_map(mesh(), levels.fragment_of_face));
     for (const auto& merge : hierarchy.merges()) {
       for (const std::size_t region : {merge.first, merge.second})
         levels.merged_regions.push_back(static_cast<std::uint32_t>(region));
@@ -154,7 +155,7 @@ class Session {
   /// The smooth boundaries between segments.
   Polylines smooth_boundaries(std::vector<Label> labels) const {
     if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
-    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(labels));
+    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(mesh(), labels));
     Polylines lines;
     const auto add = [&](const Point& p) {
       for (int i = 0; i < 3; ++i) lines.points.push_back(static_cast<float>(p[i]));
@@ -170,29 +171,8 @@ class Session {
 
  private:
   using Walk = RW_segmentation::Random_walk<Mesh>;
-  using Vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
 
   const Mesh& mesh() const { return input_.mesh; }
-
-  template <class Value>
-  using Face_map = boost::iterator_property_map<typename std::vector<Value>::iterator,
-                                                boost::property_map<Mesh, boost::face_index_t>::const_type>;
-
-  /// Values in the order of the mesh's faces as a property map.
-  template <class Value>
-  Face_map<Value> face_map(std::vector<Value>& values) const {
-    return {values.begin(), get(boost::face_index, mesh())};
-  }
-
-  double area(Mesh::Face_index f) const {
-    Vector twice = CGAL::NULL_VECTOR;
-    const auto first = mesh().halfedge(f);
-    const Point& apex = mesh().point(mesh().target(first));
-    for (auto h = mesh().next(first); mesh().next(h) != first; h = mesh().next(h))
-      twice = twice + CGAL::cross_product(mesh().point(mesh().target(h)) - apex,
-                                          mesh().point(mesh().target(mesh().next(h))) - apex);
-    return std::sqrt(twice.squared_length()) / 2;
-  }
 
   Walk& walk() {
     if (!walk_) throw std::logic_error("the walk has not been prepared");

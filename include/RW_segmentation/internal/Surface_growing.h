@@ -368,7 +368,7 @@ class Surface_growing {
     const std::vector<std::size_t> sizes =
         is_noisy ? std::vector<std::size_t>{18, 54, 162} : std::vector<std::size_t>{12, 36};
     Region best;
-    const Patch largest = neighbourhood(seed, sizes.back());
+    const std::size_t largest = is_noisy ? 0 : hash_of(neighbourhood(seed, sizes.back()));
     if (is_noisy || !has_failed(seed, largest, pass.least_gain)) {
       for (const std::size_t size : sizes) {
         const Patch start = neighbourhood(seed, size);
@@ -376,17 +376,18 @@ class Surface_growing {
         if (best.gain >= pass.least_gain && !is_noisy) return best;
         if (start.vertices.size() < size) break;
       }
-      failures_[seed] = {boost::hash_range(largest.faces.begin(), largest.faces.end()), best.gain};
+      failures_[seed] = {largest, best.gain};
     }
     if (pass.along_strips) improve(best, seed, flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
     return best;
   }
 
   /// Whether regions that begin as the same neighbourhood gained too little before.
-  bool has_failed(Index seed, const Patch& neighbourhood, double least_gain) const {
-    return failures_[seed].gain < least_gain &&
-           failures_[seed].neighbourhood == boost::hash_range(neighbourhood.faces.begin(), neighbourhood.faces.end());
+  bool has_failed(Index seed, std::size_t neighbourhood, double least_gain) const {
+    return failures_[seed].gain < least_gain && failures_[seed].neighbourhood == neighbourhood;
   }
+
+  static std::size_t hash_of(const Patch& patch) { return boost::hash_range(patch.faces.begin(), patch.faces.end()); }
 
   /// Other faces of a region that gained too little would hardly gain more.
   void expect_no_more(Index seed, const Region& region) {
@@ -529,7 +530,7 @@ class Surface_growing {
   Surface_samples samples_;
   std::vector<std::size_t> region_of_face_;
   std::vector<Analytic_surface> surfaces_;  // of each region
-  std::vector<Failure> failures_;           // by face
+  std::vector<Failure> failures_;           // by face, without noise
   std::vector<double> possible_gain_;       // of a region about each face, as far as is known
 };
 

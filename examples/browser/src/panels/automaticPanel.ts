@@ -41,7 +41,7 @@ export function automaticPanel({ automatic, mesh }: Session): void {
     if (!level) return;
     const { fewest, fragments, suggested } = level.hierarchy;
     parts.min = String(fewest);
-    parts.max = String(Math.min(fragments, Math.max(mostParts, suggested, fewest)));
+    parts.max = String(Math.min(fragments, Math.max(mostParts, suggested, fewest, level.parts)));
     parts.value = String(level.parts);
     byId('parts-value').textContent = String(level.parts);
     byId('level-remark').textContent =

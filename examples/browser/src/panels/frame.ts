@@ -54,8 +54,8 @@ function theme(): void {
     // Pages from disk may keep nothing.
   }
   onClick('theme', () => {
-    const isDark = getComputedStyle(root).getPropertyValue('--is-dark').trim() === '1';
-    root.dataset.theme = isDark ? 'light' : 'dark';
+    const former = root.dataset.theme || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light');
+    root.dataset.theme = former === 'dark' ? 'light' : 'dark';
     try {
       localStorage.setItem('theme', root.dataset.theme);
     } catch {
