@@ -11,6 +11,7 @@
 #include "networks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -195,6 +196,39 @@ TEST(RandomWalk, SegmentsAPlaneByDistanceWhetherRotatedOrNot) {
     walk.segment(labels.map());
     EXPECT_EQ(std::count(labels.values().begin(), labels.values().end(), 0u), 121);
   }
+}
+
+TEST(RandomWalk, DependsOnRatiosOfConductancesOnly) {
+  std::mt19937 random(9);
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  const auto potential_of = [&](int exponent) {
+    std::vector<double> conductances = network.conductances;
+    for (double& c : conductances) c = std::ldexp(c, exponent);
+    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, conductances);
+    for (networks::Index l = 0; l < 3; ++l) walk.add_seed(60 * l, l);
+    return walk.potential(1);
+  };
+  const std::vector<double> expected = potential_of(0);
+  for (const int exponent : {-1000, 100, 1023}) EXPECT_EQ(potential_of(exponent), expected) << exponent;
+}
+
+TEST(RandomWalk, TellsOfItsProgressWhileManyLabelsAreSolved) {
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances.assign(network.graph.number_of_edges(), 1.);
+  std::vector<double> told;
+  const Progress progress{[&](double fraction) {
+    told.push_back(fraction);
+    return true;
+  }};
+  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances, {}, progress);
+  for (networks::Index l = 0; l < 100; ++l) walk.add_seed(2 * l, l);
+  walk.labels();
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+  const auto solving = std::count_if(told.begin(), told.end(), [](double fraction) { return fraction > 0.7; });
+  const std::set<double> different(told.end() - solving, told.end());
+  EXPECT_GE(different.size(), 4u);
 }
 
 // ---- Editing ----
@@ -413,4 +447,29 @@ TEST(Islands, GoToTheBestSupportedNeighbourAndAreCounted) {
     EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), static_cast<std::ptrdiff_t>(labels.size()));
   }
   EXPECT_GT(runs_with_islands, 0u);
+}
+
+TEST(Islands, AreTheSameAfterEditsAsInAWalkMadeAnew) {
+  std::size_t walks_with_islands = 0;
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 40; ++trial) {
+    networks::Network network{networks::triangulated_torus(20), {}};
+    network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+    const auto faces = networks::random_faces(network.graph, 16, random);
+    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+    for (std::size_t l = 0; l < 8; ++l) walk.add_seed(faces[l], l);
+    walk.labels();
+    for (std::size_t l = 0; l < 8; ++l) {
+      if (l % 2 == 0)
+        walk.add_seed(faces[8 + l], l);
+      else
+        walk.remove_seed(faces[l]);
+      internal::Graph_walk<Star_mesh_elimination> anew(network.graph, network.conductances);
+      for (const auto& [face, label] : walk.seeds()) anew.add_seed(face, label);
+      EXPECT_EQ(walk.labels(), anew.labels());
+      EXPECT_EQ(walk.report().island_faces, anew.report().island_faces);
+      walks_with_islands += anew.report().island_faces > 0;
+    }
+  }
+  EXPECT_GT(walks_with_islands, 5u);
 }

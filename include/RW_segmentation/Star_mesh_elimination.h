@@ -340,12 +340,9 @@ void Star_mesh_elimination::solve_columns(const Potentials& boundary_values, Eig
   std::vector<double> x(plan_.face.size() * labels, 0.);
   forward<labels>(carries_current_, boundary, x);
   backward<labels>({}, boundary, x);
-  constexpr std::size_t faces_at_once = 16384;
-  const std::size_t faces = plan_.face.size();
   const auto write = [&](auto number) {  // known when compiled where it can be: a call for each face costs more
-    internal::parallel_tasks<Concurrency_tag>((faces + faces_at_once - 1) / faces_at_once, [&](std::size_t task) {
-      const std::size_t end = std::min((task + 1) * faces_at_once, faces);
-      for (std::size_t face = task * faces_at_once; face < end; ++face)
+    internal::parallel_stretches(plan_.face.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t face = begin; face < end; ++face)
         std::copy_n(&x[plan_.position[face] * labels], number, &potentials(static_cast<Eigen::Index>(face), first));
     });
   };

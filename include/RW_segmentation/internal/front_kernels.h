@@ -163,8 +163,7 @@ RW_SEGMENTATION_INLINE double* eliminate_block(const Front& front, std::size_t b
     if (front.absorbing[k]) {
       if (front.ground)
         for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += c[i];
-      std::memcpy(transition, c + k + 1, (size - k - 1) * sizeof(double));
-      transition += size - k - 1;
+      transition = std::copy(c + k + 1, c + size, transition);
       std::fill(p + k + 1, p + size, 0.);
       front.sum[k] = 0;
       continue;
@@ -180,8 +179,7 @@ RW_SEGMENTATION_INLINE double* eliminate_block(const Front& front, std::size_t b
     }
     if (front.ground && front.ground[k] > 0)
       for (std::size_t i = k + 1; i < size; ++i) front.ground[i] += p[i] * front.ground[k];
-    std::memcpy(transition, p + k + 1, (size - k - 1) * sizeof(double));
-    transition += size - k - 1;
+    transition = std::copy(p + k + 1, p + size, transition);
     for (std::size_t j = k + 1; j < end; ++j) {
       const double factor = p[j];
       double* column = front.panel + j * size;
