@@ -473,6 +473,16 @@ TEST(Integral_invariant_curvatures, OfBallsRoundEverythingAreCountedAndFinite) {
   }
 }
 
+TEST(Integral_invariant_curvatures, OfBallsTooSmallForNumbersAreThoseOfPlanes) {
+  const meshes::Shape sphere = meshes::sphere(1);
+  for (const double least : {std::numeric_limits<double>::denorm_min(), 1e-200})
+    for (const Ball_radius& radius : {Ball_radius::absolute(least), Ball_radius::in_edge_lengths(least)}) {
+      const auto [curvatures, report] = measured(sphere, radius);
+      EXPECT_EQ(report.balls_inside_a_face, curvatures.size());
+      for (const Surface_curvatures& c : curvatures) EXPECT_LT(std::abs(c.max_curvature) * report.radius, 1e-9);
+    }
+}
+
 TEST(Integral_invariant_curvatures, OfFacesWithoutAreaAreThoseOfAFaceNearby) {
   meshes::Shape shape = meshes::sphere(4);
   // The first edge of face 100 gets a point in its middle, and a face without area.

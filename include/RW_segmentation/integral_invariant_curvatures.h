@@ -26,7 +26,7 @@
 
 namespace RW_segmentation {
 
-/// The radius of the balls in which curvature is measured.
+/// The radius of the balls in which curvature is measured, 1e-12 of the diagonal of the mesh if it is less.
 class Ball_radius {
  public:
   /// A multiple of the mean length of the interior edges. On clean, even meshes 2 to 3 serve; noise asks for more.
@@ -115,9 +115,10 @@ inline Surface_curvatures curvatures_in_unit_ball(const Ball_moments& ball) {
 inline double length_of(const Ball_radius& radius, const Face_geometry& geometry) {
   if (!(radius.value() > 0) || !std::isfinite(radius.value()))
     throw argument_error("radius", radius.value(), "positive and finite");
-  if (!radius.is_in_edge_lengths()) return radius.value() / geometry.unit;
+  constexpr double smallest = 1e-12;  // so that rounding errors of points are smaller still
+  if (!radius.is_in_edge_lengths()) return std::max(radius.value() / geometry.unit, smallest);
   // A mesh without interior edges is a few planes.
-  return radius.value() * (geometry.edge_length.empty() ? 1 : geometry.mean_edge_length());
+  return std::max(radius.value() * (geometry.edge_length.empty() ? 1 : geometry.mean_edge_length()), smallest);
 }
 
 /// Gives each face without area the values of a face that is as few steps away as any.

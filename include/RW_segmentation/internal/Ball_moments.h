@@ -73,6 +73,7 @@ class Ball_moments {
 
   /// Where the surface ends in the side from a to b of a triangle: continues it, from the part of the side in the ball,
   /// straight along the rays from the centre. Cones with their tips in 0 have d = 0: only their arcs count.
+  /// \pre the side meets the ball
   void add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
   double volume() const { return cone_volume_ + area_on_sphere() / 3; }
@@ -209,8 +210,8 @@ inline bool Ball_moments::holds(const std::array<Eigen::Vector3d, 3>& corner, co
 
 inline void Ball_moments::add_border(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d normal = a.cross(b);
+  if (normal.isZero(0)) return;
   const Chord in_ball = chord(a, b);
-  if (in_ball.empty() || normal.isZero(0)) return;
   Sectors sectors{normal.normalized()};
   sectors.add((a + in_ball.enter * (b - a)).normalized(), (a + in_ball.leave * (b - a)).normalized());
   add_sectors(sectors, 0, 1);
