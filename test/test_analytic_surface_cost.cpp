@@ -60,6 +60,15 @@ TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceAndNothingElse) {
   }
 }
 
+TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceUnderNoise) {
+  for (const double edge_length : {0.1, 0.2}) {
+    const solids::Solid box = solids::box(solids::even(edge_length));
+    EXPECT_EQ(segmentation_measures::Overlaps(merged(solids::with_noise(box, 0.3), halves_of_faces(box)), box.label)
+                  .rand_index_error(),
+              0);
+  }
+}
+
 TEST(EdgeSharpness, IsTheAngleAsAPartOf40Degrees) {
   for (const double size : {1., 1e-6, 1e6}) {
     meshes::Shape cube = meshes::cube(2);

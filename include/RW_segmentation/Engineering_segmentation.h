@@ -108,7 +108,7 @@ Random_walk_hierarchy<FaceListGraph> hierarchy_via_random_walks(
   clock.note("walk");
 
   report.components = internal::components(graph, conductances).count;
-  report.seeds = regions.count;
+  report.seeds = regions.surfaces.size();
   report.fragments = *std::max_element(fragment_of_face.begin(), fragment_of_face.end()) + 1;
   report.degenerate_faces = data.geometry->degenerate_faces;
   const auto cost = data.formula(80);

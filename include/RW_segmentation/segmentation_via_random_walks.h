@@ -155,9 +155,10 @@ inline std::vector<double> excess(std::vector<double> difference, double ordinar
     d = d > ordinary ? std::sqrt(d * d - ordinary * ordinary) : 0;
     sum += d;
   }
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(difference.size(), 1));
-  if (mean > 0)
+  if (sum > 0) {
+    const double mean = sum / static_cast<double>(difference.size());
     for (double& d : difference) d /= mean;
+  }
   return difference;
 }
 

@@ -13,7 +13,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -21,7 +24,8 @@ namespace RW_segmentation::internal {
 /// Makes fragments of the regions that `Surface_growing` found and of the faces that no surface explains: these form
 /// groups that are fragments themselves, or, where a group is too small to be a face of the solid and continues a
 /// region smoothly, are given to the regions by a random walk from these. Triangles that turn sharply against each
-/// other, as on coarse fillets and holes, are one group where they touch.
+/// other, as on coarse fillets and holes, are one group where they touch. A group with long creases inside, which end in
+/// it, is cut along them: walks from either side share it out.
 class Region_fragments {
  public:
   using Index = Dual_graph::Index;
@@ -52,11 +56,16 @@ class Region_fragments {
         return region_of_face[to] == none &&
                (is_smooth(edge) || (is_lone[from] && is_lone[to] && angles_[edge] < widest_angle));
       });
-      if (continues_a_region(group, region_of_face)) unexplained.insert(unexplained.end(), group.begin(), group.end());
+      if (continues_a_region(group, region_of_face))
+        unexplained.insert(unexplained.end(), group.begin(), group.end());
+      else if (tolerance_.noise == 0) {  // which would make creases of its own
+        const double done = 0.5 * static_cast<double>(f) / static_cast<double>(graph_.number_of_faces());
+        cut_along_creases(group, progress.part(done, done));
+      }
     }
     is_given_.assign(graph_.number_of_faces(), false);
     for (const Index f : unexplained) is_given_[f] = true;
-    if (!unexplained.empty()) walk(unexplained, progress);
+    if (!unexplained.empty()) walk(unexplained, 0, progress.part(0.5, 1));
     return renumbered();
   }
 
@@ -125,8 +134,139 @@ class Region_fragments {
     return true;
   }
 
+  // ---- Creases inside a group ----
+
+  bool is_crease(Index edge) const { return angles_[edge] > tolerance_.sharp_angle(graph_.faces_of(edge)); }
+
+  void cut_along_creases(const std::vector<Index>& group, const Progress& progress) {
+    const std::vector<std::vector<Index>> sides = sides_of_creases(group);
+    if (sides.size() < 2) return;
+    const std::size_t first_side = number_of_fragments_;
+    for (const std::vector<Index>& side : sides) {
+      for (const Index f : side) fragment_of_face_[f] = number_of_fragments_;
+      ++number_of_fragments_;
+    }
+    std::vector<Index> others;
+    for (const Index f : group)
+      if (fragment_of_face_[f] < first_side) others.push_back(f);
+    if (!others.empty()) walk(others, first_side, progress);
+    join_across_least_creases(group);
+  }
+
+  /// A boundary of two fragments: its length, and how much of it is crease.
+  struct Boundary {
+    double length = 0, crease = 0;
+    double share() const { return length > 0 ? crease / length : 0; }
+  };
+  using Boundaries = std::map<std::pair<std::size_t, std::size_t>, Boundary>;  // the lower fragment first
+
+  /// Joins fragments of a group across those boundaries first that have least of a crease, until all are half a crease.
+  void join_across_least_creases(const std::vector<Index>& group) {
+    Boundaries boundaries = boundaries_in(group);
+    std::map<std::size_t, std::size_t> joined;  // a fragment, and the one that it has become part of
+    while (!boundaries.empty()) {
+      const auto least = std::min_element(boundaries.begin(), boundaries.end(), [](const auto& x, const auto& y) {
+        return x.second.share() < y.second.share();
+      });
+      if (least->second.share() >= 0.5) break;
+      const auto [a, b] = least->first;
+      joined[b] = a;
+      Boundaries left;
+      for (const auto& [pair, boundary] : boundaries) {
+        const std::size_t c = pair.first == b ? a : pair.first, d = pair.second == b ? a : pair.second;
+        if (c == d) continue;
+        Boundary& sum = left[std::minmax(c, d)];
+        sum.length += boundary.length;
+        sum.crease += boundary.crease;
+      }
+      boundaries = std::move(left);
+    }
+    for (const Index f : group)
+      for (auto j = joined.find(fragment_of_face_[f]); j != joined.end(); j = joined.find(j->second))
+        fragment_of_face_[f] = j->second;
+  }
+
+  Boundaries boundaries_in(const std::vector<Index>& group) const {
+    const std::set<Index> inside(group.begin(), group.end());
+    Boundaries boundaries;
+    for (const Index f : group)
+      for (const auto& [g, e] : graph_.neighbours(f)) {
+        if (!(fragment_of_face_[f] < fragment_of_face_[g]) || inside.count(g) == 0 || !(conductances_[e] > 0)) continue;
+        Boundary& boundary = boundaries[{fragment_of_face_[f], fragment_of_face_[g]}];
+        boundary.length += geometry_.edge_length[e];
+        if (is_crease(e)) boundary.crease += geometry_.edge_length[e];
+      }
+    return boundaries;
+  }
+
+  /// The faces of a group about the vertices that long creases pass, connected ones together.
+  std::vector<std::vector<Index>> sides_of_creases(const std::vector<Index>& group) const {
+    const std::set<Index> passed = passed_by_creases(group);
+    if (passed.empty()) return {};
+    const std::size_t own = fragment_of_face_[group.front()];
+    const auto is_beside = [&](Index f) {
+      return fragment_of_face_[f] == own &&
+             std::any_of(corners_[f].begin(), corners_[f].end(), [&](Index v) { return passed.count(v) > 0; });
+    };
+    std::set<Index> reached;
+    std::vector<std::vector<Index>> sides;
+    for (const Index f : group) {
+      if (!is_beside(f) || !reached.insert(f).second) continue;
+      std::vector<Index> side = {f};
+      for (std::size_t i = 0; i < side.size(); ++i)
+        for (const auto& [g, e] : graph_.neighbours(side[i]))
+          if (conductances_[e] > 0 && !is_crease(e) && is_beside(g) && reached.insert(g).second) side.push_back(g);
+      sides.push_back(std::move(side));
+    }
+    return sides;
+  }
+
+  /// The vertices of a group where two edges or more of a crease meet, if it is long beside the group.
+  std::set<Index> passed_by_creases(const std::vector<Index>& group) const {
+    constexpr double least_length = 0.5;         // as a part of the square root of the area
+    constexpr std::size_t fewest_vertices = 16;  // of a crease that is more than a detail of its mesh
+    const std::size_t own = fragment_of_face_[group.front()];
+    std::map<Index, std::vector<std::pair<Index, double>>> crease;  // by vertex: the other end of each edge, its length
+    double area = 0;
+    for (const Index f : group) {
+      area += geometry_.area[f];
+      for (const auto& [g, e] : graph_.neighbours(f))
+        if (f < g && fragment_of_face_[g] == own && is_crease(e)) {
+          const auto [v, w] = common_corners(f, g);
+          crease[v].emplace_back(w, geometry_.edge_length[e]);
+          crease[w].emplace_back(v, geometry_.edge_length[e]);
+        }
+    }
+    std::set<Index> reached, passed;
+    for (const auto& [first, edges] : crease) {
+      if (!reached.insert(first).second) continue;
+      std::vector<Index> vertices = {first};
+      double length = 0;
+      for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (const auto& [next, edge_length] : crease.at(vertices[i])) {
+          length += edge_length / 2;
+          if (reached.insert(next).second) vertices.push_back(next);
+        }
+      if (vertices.size() < fewest_vertices || length < least_length * std::sqrt(area)) continue;
+      for (const Index v : vertices)
+        if (crease.at(v).size() > 1) passed.insert(v);
+    }
+    return passed;
+  }
+
+  std::pair<Index, Index> common_corners(Index f, Index g) const {
+    const auto other = corners_[g];
+    std::vector<Index> common;
+    for (const Index v : corners_[f])
+      if (std::find(other.begin(), other.end(), v) != other.end()) common.push_back(v);
+    return {common.front(), common.back()};
+  }
+
+  // ---- The walk ----
+
   /// Gives faces to the fragments about them. These are absorbing, so that each of them is one node.
-  void walk(const std::vector<Index>& faces, const Progress& progress) {
+  /// \param first_fragment fragments with lower numbers get none
+  void walk(const std::vector<Index>& faces, std::size_t first_fragment, const Progress& progress) {
     constexpr Index no_node = std::numeric_limits<Index>::max();
     std::vector<Index> node_of_face(graph_.number_of_faces(), no_node), node_of_fragment(number_of_fragments_, no_node);
     for (std::size_t i = 0; i < faces.size(); ++i) node_of_face[faces[i]] = static_cast<Index>(i);
@@ -138,6 +278,7 @@ class Region_fragments {
       for (const auto& [g, e] : graph_.neighbours(f)) {
         Index other = node_of_face[g];
         if (other == no_node) {
+          if (fragment_of_face_[g] < first_fragment) continue;
           Index& seed = node_of_fragment[fragment_of_face_[g]];
           if (seed == no_node) {
             seed = static_cast<Index>(faces.size() + seeds.size());

@@ -113,11 +113,11 @@ class Surface_growing {
     // By chance, noisy vertices lie on a surface that was fitted to few of them, and pieces of a large surface on
     // others: the largest come first.
     const bool is_noisy = tolerance.noise > 0;
-    const std::vector<Pass> passes =
-        is_noisy ? std::vector<Pass>{{1000, false}, {400, false}, {160, false}, {64, false}, {24, false}}
-                 : std::vector<Pass>{{64, false}, {12, false}, {12, true}, {3, false}};
+    const std::vector<Pass> passes = is_noisy ? std::vector<Pass>{{1000}, {400}, {160}, {64}, {24}}
+                                              : std::vector<Pass>{{64}, {12}, {12, 0, true}, {3, 10}};
     possible_gain_.assign(graph_.number_of_faces(), std::numeric_limits<double>::infinity());
     failures_.assign(graph_.number_of_faces(), {});
+    tries_.assign(graph_.number_of_faces(), 0);
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1000 == 0)
@@ -126,14 +126,23 @@ class Surface_growing {
         const Index seed = order[i];
         if (region_of_face_[seed] != none || geometry_.normal[seed].isZero()) continue;
         if (possible_gain_[seed] < passes[k].least_gain) continue;
-        const Region region = best_region(seed, passes[k]);
+        Region region = best_region(seed, passes[k]);
         if (region.gain < passes[k].least_gain) {
           if (is_noisy) expect_no_more(seed, region);
           continue;
         }
+        if (!is_noisy) prefer_rivals(region, passes[k]);
         for (const Index f : region.patch.faces) region_of_face_[f] = surfaces_.size();
         surfaces_.push_back(region.surface);
       }
+  }
+
+  /// Takes regions and their surfaces over that were found on another mesh.
+  void adopt(const Surface_tolerance& tolerance, std::vector<std::size_t> region_of_face,
+             std::vector<Analytic_surface> surfaces) {
+    tolerance_ = &tolerance;
+    region_of_face_ = std::move(region_of_face);
+    surfaces_ = std::move(surfaces);
   }
 
   /// Moves faces at the borders of regions to the neighbour whose surface they fit best, and lets faces of the
@@ -178,10 +187,12 @@ class Surface_growing {
     double gain = std::numeric_limits<double>::infinity();
   };
 
-  /// Which regions are taken: those that gain enough, about round neighbourhoods or along narrow ones, too.
+  /// Which regions are taken: those that gain enough, about round neighbourhoods of so many vertices at least or along
+  /// narrow ones, too.
   struct Pass {
     double least_gain;
-    bool along_strips;
+    std::size_t smallest_start = 0;  // smaller ones happen to lie on surfaces all over a free form
+    bool along_strips = false;
   };
 
   // ---- Patches ----
@@ -199,6 +210,11 @@ class Surface_growing {
         vertex_mark_[v] = mark_;
         patch.vertices.push_back(v);
       }
+  }
+
+  void mark_faces(const Patch& patch) {
+    ++mark_;
+    for (const Index f : patch.faces) face_mark_[f] = mark_;
   }
 
   bool is_sharp(Index edge) const {
@@ -366,11 +382,12 @@ class Surface_growing {
   Region best_region(Index seed, const Pass& pass) {
     const bool is_noisy = tolerance_->noise > 0;  // few vertices mislead then: all sizes are tried
     const std::vector<std::size_t> sizes =
-        is_noisy ? std::vector<std::size_t>{18, 54, 162} : std::vector<std::size_t>{12, 36};
+        is_noisy ? std::vector<std::size_t>{18, 54, 162} : std::vector<std::size_t>{7, 10, 12, 36};
     Region best;
     const std::size_t largest = is_noisy ? 0 : hash_of(neighbourhood(seed, sizes.back()));
     if (is_noisy || !has_failed(seed, largest, pass.least_gain)) {
       for (const std::size_t size : sizes) {
+        if (size < pass.smallest_start) continue;
         const Patch start = neighbourhood(seed, size);
         improve(best, seed, start, pass.least_gain);
         if (best.gain >= pass.least_gain && !is_noisy) return best;
@@ -382,6 +399,42 @@ class Surface_growing {
     return best;
   }
 
+  /// Where a region ends smoothly, one that begins beyond may hold a part of it and explain more: a ring beside a fillet
+  /// and the first row of triangles of the fillet lie on one torus, too.
+  void prefer_rivals(Region& region, const Pass& pass) {
+    for (Region rival = rival_of(region, pass); rival.gain > region.gain; rival = rival_of(region, pass))
+      region = std::move(rival);
+  }
+
+  /// A region with more gain that has faces in common with a given one; none if its gain is not larger.
+  Region rival_of(const Region& region, const Pass& pass) {
+    for (const Index seed : seeds_beyond(region.patch)) {
+      Region rival = best_region(seed, pass);
+      if (rival.gain <= region.gain) continue;
+      mark_faces(region.patch);
+      if (std::any_of(rival.patch.faces.begin(), rival.patch.faces.end(),
+                      [&](Index f) { return face_mark_[f] == mark_; }))
+        return rival;
+    }
+    return {};
+  }
+
+  /// Some of the faces beside a patch, and for each of them one farther away.
+  std::vector<Index> seeds_beyond(const Patch& patch) {
+    constexpr std::size_t places = 4, reach = 18;
+    const std::vector<Index> beside = faces_beside(patch);
+    std::vector<Index> seeds;
+    for (std::size_t i = 0; i < std::min(places, beside.size()); ++i) {
+      const Index near = beside[i * beside.size() / places];
+      const std::vector<Index> about = neighbourhood(near, reach).faces;
+      mark_faces(patch);
+      const Index far = *std::find_if(about.rbegin(), about.rend(), [&](Index f) { return face_mark_[f] != mark_; });
+      seeds.push_back(near);
+      if (far != near) seeds.push_back(far);
+    }
+    return seeds;
+  }
+
   /// Whether regions that begin as the same neighbourhood gained too little before.
   bool has_failed(Index seed, std::size_t neighbourhood, double least_gain) const {
     return failures_[seed].gain < least_gain && failures_[seed].neighbourhood == neighbourhood;
@@ -389,12 +442,15 @@ class Surface_growing {
 
   static std::size_t hash_of(const Patch& patch) { return boost::hash_range(patch.faces.begin(), patch.faces.end()); }
 
-  /// Other faces of a region that gained too little would hardly gain more.
+  /// Other faces of a region that gained too little would hardly gain more, the less the more of them were tried.
   void expect_no_more(Index seed, const Region& region) {
-    constexpr double hardly = 1.3;
+    const double hardly = 1 + 0.3 * std::pow(0.9, tries_[seed]);
     const double gain = hardly * std::max(region.gain, 0.);
     possible_gain_[seed] = gain;
-    for (const Index f : region.patch.faces) possible_gain_[f] = std::min(possible_gain_[f], gain);
+    for (const Index f : region.patch.faces) {
+      possible_gain_[f] = std::min(possible_gain_[f], gain);
+      ++tries_[f];
+    }
   }
 
   /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
@@ -408,13 +464,16 @@ class Surface_growing {
     }
   }
 
-  bool ends_at_sharp_edges(const Patch& patch) {
-    ++mark_;
-    for (const Index f : patch.faces) face_mark_[f] = mark_;
+  bool ends_at_sharp_edges(const Patch& patch) { return faces_beside(patch).empty(); }
+
+  /// The free faces that a patch continues into across edges that are not sharp.
+  std::vector<Index> faces_beside(const Patch& patch) {
+    mark_faces(patch);
+    std::vector<Index> beside;
     for (const Index f : patch.faces)
       for (const auto& [g, e] : graph_.neighbours(f))
-        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_sharp(e)) return false;
-    return true;
+        if (face_mark_[g] != mark_ && region_of_face_[g] == none && !is_sharp(e)) beside.push_back(g);
+    return beside;
   }
 
   std::vector<double> signs() const {
@@ -532,6 +591,7 @@ class Surface_growing {
   std::vector<Analytic_surface> surfaces_;  // of each region
   std::vector<Failure> failures_;           // by face, without noise
   std::vector<double> possible_gain_;       // of a region about each face, as far as is known
+  std::vector<std::uint32_t> tries_;        // by face: regions with it that gained too little
 };
 
 }  // namespace RW_segmentation::internal
