@@ -61,6 +61,11 @@ TEST(LocalThickness, OfABoxIsItsExtentAlongTheNormal) {
   }
 }
 
+TEST(LocalThickness, OfBodiesThatTouchIsThatOfEach) {
+  const meshes::Shape bodies = meshes::together(meshes::cube(3), meshes::moved(meshes::cube(3), {1, 0, 0}));
+  for (const double thickness : measured(bodies, straight(100000)).thickness) EXPECT_NEAR(thickness, 1, 1e-12);
+}
+
 TEST(LocalThickness, OfASphereIsTheMedianChordOfTheCone) {
   const Measured result = measured(meshes::sphere(5));
   const double middle_ray = 0.5 * std::sqrt(3. / 6);  // of seven that are spread evenly over the cone

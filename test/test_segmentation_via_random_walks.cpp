@@ -274,3 +274,10 @@ TEST(AutomaticPathologies, TheCallbackSeesProgressAndCancels) {
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1);
 }
+
+TEST(AutomaticPathologies, OfNoFacesNothingIsReported) {
+  const Segmentation_report report = hierarchy_via_random_walks(meshes::Surface_mesh()).report();
+  EXPECT_EQ(report.components + report.seeds + report.clusters + report.fragments, 0u);
+  EXPECT_EQ(report.degenerate_faces + report.island_faces, 0u);
+  EXPECT_FALSE(report.has_heavy_noise);
+}

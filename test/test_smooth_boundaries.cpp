@@ -104,6 +104,25 @@ TEST(SmoothBoundaries, BoundariesOnTheEdgesOfACubeStayThere) {
       }
 }
 
+TEST(SmoothBoundaries, RunOnAlongACreaseAndAreSmoothedElsewhereWhereverTheyBegin) {
+  const Shape cube = meshes::cube(16);
+  for (unsigned seed = 1; seed <= 20; ++seed) {  // a closed curve begins in the first face that it passes
+    const Shape shape = meshes::with_faces_in_order(cube, meshes::random_order(cube.faces.size(), seed));
+    const Surface_mesh mesh = meshes::surface_mesh(shape);
+    const Labels half_disc = labels_by_place(shape, [](const Eigen::Vector3d& p) {
+      return std::size_t(p.z() == 1 && (p - Eigen::Vector3d(0.5, 0, 1)).norm() < 0.35);
+    });
+    const auto jagged = jagged_curves_of(mesh, half_disc), curves = curves_of(mesh, half_disc);
+    ASSERT_EQ(curves.size(), 1u);
+    EXPECT_TRUE(curves[0].is_closed);
+    EXPECT_TRUE(curves[0].is_smoothed);
+    const auto points = points_of(curves[0]), corners = points_of(jagged[0]);
+    EXPECT_LT(turning(points, true), turning(corners, true) / 2);
+    for (const Eigen::Vector3d& p : corners)
+      EXPECT_TRUE(p.y() > 0 || std::count(points.begin(), points.end(), p) == 1) << p.transpose();
+  }
+}
+
 TEST(SmoothBoundaries, TurnsAThirdOfTheJaggedOnesAtMost) {
   const Shape shape = meshes::sphere(4);
   const Surface_mesh mesh = meshes::surface_mesh(shape);
@@ -243,6 +262,20 @@ TEST(SmoothBoundaries, RingsRoundAFaceOrAVertexStay) {
   for (const auto& curve : curves) {
     EXPECT_FALSE(curve.is_smoothed);
     for (const auto& p : curve.points) EXPECT_EQ(p.position, 1);
+  }
+}
+
+TEST(SmoothBoundaries, RingsRoundAVertexOfManyFacesStayOnEitherSide) {
+  const Shape shape = meshes::two_spheres_with_neck(3, 0.4, 24);  // with poles
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  for (const std::size_t at_poles : {0, 1}) {
+    Labels labels(shape.faces.size(), 1 - at_poles);
+    for (const auto v : mesh.vertices())
+      if (mesh.degree(v) == 24)
+        for (const auto f : CGAL::faces_around_target(mesh.halfedge(v), mesh)) labels[f] = at_poles;
+    const auto curves = curves_of(mesh, labels);
+    ASSERT_EQ(curves.size(), 2u);
+    for (const auto& curve : curves) EXPECT_FALSE(curve.is_smoothed);
   }
 }
 

@@ -222,6 +222,37 @@ TEST(SplitAlongBoundariesOf, SecondRoundFindsTheCurvesOfTheFirst) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((points[i] - expected[i]).norm(), 1e-12);
 }
 
+TEST(SplitAlongBoundariesOf, ACurveMayTouchAnEdgeAndTurnBack) {
+  Two_halves halves;
+  Surface_mesh& mesh = halves.mesh;
+  auto& points = halves.curves[0].points;
+  bool is_touched = false;
+  for (std::size_t i = 1; i < points.size() && !is_touched; ++i) {
+    if (points[i - 1].position == 1 || points[i].position == 1) continue;
+    for (const auto h : mesh.halfedges()) {  // the third edge of the face that is crossed
+      const std::set<Surface_mesh::Edge_index> others = {mesh.edge(mesh.next(h)), mesh.edge(mesh.prev(h))};
+      if (mesh.is_border(mesh.edge(h)) ||
+          others != std::set{mesh.edge(points[i - 1].halfedge), mesh.edge(points[i].halfedge)})
+        continue;
+      points.insert(points.begin() + static_cast<std::ptrdiff_t>(i),
+                    {h, 0.5, CGAL::midpoint(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)))});
+      is_touched = true;
+      break;
+    }
+  }
+  ASSERT_TRUE(is_touched);
+  const auto vertices = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.position < 1; }));
+  const Surface_measures before = measures(mesh, halves.labels);
+  const Split_report report = split_along_boundaries(mesh, halves.curves, halves.labels.map());
+  EXPECT_EQ(report.vertices_added, vertices);
+  EXPECT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
+  EXPECT_TRUE(CGAL::is_triangle_mesh(mesh)) << "the face beyond is cut, too";
+  const Surface_measures after = measures(mesh, halves.labels);
+  EXPECT_NEAR(after.area, before.area, 1e-12);
+  EXPECT_EQ(after.regions, before.regions);
+}
+
 // ---- The visitor ----
 
 namespace {

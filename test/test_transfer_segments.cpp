@@ -98,6 +98,28 @@ TEST(TransferSegments, ABoundaryMovesToTheCreaseOfTheFullMesh) {
   EXPECT_EQ(transferred(mesh, beside, mesh, conductance, 16), crease.values());
 }
 
+TEST(TransferSegments, ABandOfOneFaceTakesInATooth) {
+  const Mesh mesh = meshes::surface_mesh(meshes::plane(11));
+  auto ids = labelled(mesh, [](const Eigen::Vector3d& p) -> std::size_t { return p[0] > 0.501; });
+  const auto tooth = [&] {  // in the middle, all but one of its neighbours on the other side
+    for (const auto f : mesh.faces())
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const auto& p = mesh.point(mesh.source(h));
+        const auto g = mesh.face(mesh.opposite(h));
+        if (std::abs(p[1] - 0.5) < 0.1 && g != Mesh::null_face() && get(ids.map(), f) != get(ids.map(), g)) return f;
+      }
+    return Mesh::null_face();
+  }();
+  const std::size_t other = 1 - get(ids.map(), tooth);
+  put(ids.map(), tooth, other);
+  auto before = ids;
+  for (const std::size_t band : {0, 1}) {
+    Face_labels<Mesh> result(mesh);
+    transfer_segments(mesh, before.map(), mesh, even_conductance(), result.map(), band);
+    EXPECT_EQ(get(result.map(), tooth), band == 0 ? other : 1 - other);
+  }
+}
+
 TEST(TransferSegments, SegmentsOfACoarserMeshStayInOnePiece) {
   const Mesh mesh = meshes::surface_mesh(meshes::sphere(4));
   const Mesh reduced = meshes::surface_mesh(meshes::sphere(2));

@@ -91,18 +91,13 @@ class Boundary_smoother {
     return result;
   }
 
-  /// Whether all faces on one side of a closed chain meet in one point, or there is only one.
+  /// Whether all faces on one side of a closed chain meet in one point.
   bool is_ring(const Boundary_chain& chain) const {
     if (!chain.is_closed) return false;
     for (const bool is_left : {true, false}) {
       const auto apex = [&](Index h) {
         return surface_.source(Triangle_surface::previous(is_left ? h : surface_.twin(h)));
       };
-      if (chain.halfedges.size() == 3 && std::all_of(chain.halfedges.begin(), chain.halfedges.end(), [&](Index h) {
-            return Triangle_surface::face(is_left ? h : surface_.twin(h)) ==
-                   Triangle_surface::face(is_left ? chain.halfedges[0] : surface_.twin(chain.halfedges[0]));
-          }))
-        return true;
       if (std::all_of(chain.halfedges.begin(), chain.halfedges.end(),
                       [&](Index h) { return apex(h) == apex(chain.halfedges[0]); }))
         return true;
