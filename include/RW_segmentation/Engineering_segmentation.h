@@ -69,7 +69,7 @@ struct Engineering_segmentation {
 /// analytic surfaces, and the levels above cost 1 join segments that no surface fits.
 ///
 /// Given seeds are not used, and constrained edges are crossed by no fragment. Complexity: linear in the number of
-/// faces for meshes whose regions have several faces each; the time of a fit, about 0.1 ms, for each face that no
+/// faces for meshes whose regions have several faces each; the time of a few fits, 0.1 to 0.2 ms, for each face that no
 /// region holds.
 template <class FaceListGraph,
           class SeedRange = std::array<typename boost::graph_traits<FaceListGraph>::face_descriptor, 0>,
