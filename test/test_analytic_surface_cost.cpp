@@ -69,6 +69,23 @@ TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceUnderNoise) {
   }
 }
 
+TEST(AnalyticSurfaceCost, OfPartsOfAPlaneIsWhatTheNumberOfTheirVerticesProves) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::plane(6));
+  const Analytic_surface_cost<Surface_mesh> cost(mesh, 0);
+  const auto region = [&](std::size_t first, std::size_t faces) {
+    auto whole = cost.region(Surface_mesh::Face_index(static_cast<unsigned>(first)));
+    for (std::size_t f = first + 1; f < first + faces; ++f)
+      cost.join(whole, cost.region(Surface_mesh::Face_index(static_cast<unsigned>(f))));
+    return whole;
+  };
+  const Region_boundary boundary = {{1, 0}, {1, 0}};
+  for (const std::size_t pairs : {1, 2, 3, 5}) {  // of triangles along a row
+    const double vertices = 2. * static_cast<double>(pairs) + 2;
+    const double expected = 3 / (vertices - 3) / (1.5 * 1.5);
+    EXPECT_NEAR(cost(region(0, 1), region(1, 2 * pairs - 1), boundary), expected, 1e-6) << pairs;
+  }
+}
+
 TEST(EdgeSharpness, IsTheAngleAsAPartOf40Degrees) {
   for (const double size : {1., 1e-6, 1e6}) {
     meshes::Shape cube = meshes::cube(2);

@@ -485,14 +485,19 @@ TEST(Integral_invariant_curvatures, OfBallsTooSmallForNumbersAreThoseOfPlanes) {
 
 TEST(Integral_invariant_curvatures, OfFacesWithoutAreaAreThoseOfAFaceNearby) {
   meshes::Shape shape = meshes::sphere(4);
-  // The first edge of face 100 gets a point in its middle, and a face without area.
-  const std::size_t a = shape.faces[100][0], b = shape.faces[100][1], middle = shape.points.size();
-  shape.points.push_back((shape.points[a] + shape.points[b]) / 2);
-  shape.faces.push_back({a, b, middle});
-  shape.faces[100] = {a, middle, shape.faces[100][2]};
-  shape.faces.push_back({middle, b, shape.faces[100][2]});
+  // The first edge of face 100 gets two points, and two faces without area one beside the other.
+  const std::size_t a = shape.faces[100][0], b = shape.faces[100][1], c = shape.faces[100][2];
+  const std::size_t first = shape.points.size(), second = first + 1;
+  const Vector3d third = (shape.points[b] - shape.points[a]) / 3;
+  shape.points.push_back(shape.points[a] + third);
+  shape.points.push_back(shape.points[b] - third);
+  shape.faces.push_back({a, b, first});
+  shape.faces.push_back({first, b, second});
+  shape.faces[100] = {a, first, c};
+  shape.faces.push_back({first, second, c});
+  shape.faces.push_back({second, b, c});
   const auto [curvatures, report] = measured(shape, Ball_radius::in_edge_lengths(3));
-  EXPECT_EQ(report.faces_without_area, 1U);
+  EXPECT_EQ(report.faces_without_area, 2U);
   for (const Surface_curvatures& c : curvatures) {
     EXPECT_NEAR(c.max_curvature, 1, 0.03);
     EXPECT_NEAR(c.min_curvature, 1, 0.03);

@@ -323,6 +323,34 @@ TEST(SeedEditing, ChangesNothingWhenASeedIsAddedAndRemoved) {
   EXPECT_EQ(walk.report().factorisations, 1u);
 }
 
+namespace {
+
+struct Counting_solver : Star_mesh_elimination {
+  static int analyses;
+
+  void analyze(const Dual_graph& graph) {
+    ++analyses;
+    Star_mesh_elimination::analyze(graph);
+  }
+};
+int Counting_solver::analyses = 0;
+
+}  // namespace
+
+TEST(SeedEditing, AnalysesTheMeshOnceHoweverOftenItFactorises) {
+  std::mt19937 random(4);
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  internal::Graph_walk<Counting_solver> walk(network.graph, network.conductances);
+  for (networks::Index shift = 0; shift < 3; ++shift) {
+    walk.clear_seeds();
+    for (networks::Index l = 0; l < 12; ++l) walk.add_seed(15 * l + shift, l);
+    walk.labels();
+  }
+  EXPECT_EQ(walk.report().factorisations, 3u);
+  EXPECT_EQ(Counting_solver::analyses, 1);
+}
+
 TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
   std::mt19937 random(5);
   networks::Network network{networks::triangulated_torus(10), {}};
@@ -343,6 +371,34 @@ TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
   EXPECT_EQ(walk.report().factorisations, 1u);
   const auto again = walk.potential(2);
   for (std::size_t f = 0; f < again.size(); ++f) ASSERT_NEAR(again[f], potential[f], 1e-9);
+}
+
+TEST(SeedEditing, StaysRightWhenSeedsOfTheFactorComeBackAfterOthers) {
+  std::mt19937 random(8);
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  const std::vector<networks::Index> seeds = {30, 0, 50, 120};
+  const auto add = [&](std::size_t l) {
+    walk.add_seed(seeds[l], l);
+    walk.labels();
+  };
+  walk.add_seed(seeds[1], 1);
+  add(2);
+  add(0);
+  for (const std::size_t l : {1, 2}) {
+    walk.remove_seed(seeds[l]);
+    add(l);
+  }
+  add(3);
+  EXPECT_EQ(walk.report().factorisations, 1u);
+  Star_mesh_elimination fresh;
+  const Potentials expected = networks::potentials(fresh, network, seeds);
+  for (std::size_t l = 0; l < seeds.size(); ++l) {
+    const std::vector<double> potential = walk.potential(l);
+    for (std::size_t f = 0; f < potential.size(); ++f)
+      ASSERT_NEAR(potential[f], expected(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(l)), 1e-9);
+  }
 }
 
 TEST(SeedEditing, FollowsSeedsThroughSeveralComponents) {

@@ -181,6 +181,19 @@ TEST(SmoothBoundaries, AreSmoothedWithinTheirCorridorHoweverHugeTheNumbers) {
   }
 }
 
+TEST(SmoothBoundaries, CurvesThatWouldMeetAreDrawnCloserToTheirEdges) {
+  const Shape shape = meshes::plane(16);
+  const Labels labels = labels_by_place(shape, [](const Eigen::Vector3d& p) {
+    // A strip that is wide, then pinched, and so on.
+    const bool is_wide = static_cast<int>(16 * p.x()) % 4 < 2;
+    const double below = is_wide ? 0.08 : -0.01, above = is_wide ? 0.005 : 0.095;
+    return std::size_t(p.y() < 0.5 - below ? 0 : p.y() < 0.5 + above ? 1 : 2);
+  });
+  const auto curves = curves_of(meshes::surface_mesh(shape), labels);
+  EXPECT_GT(curves.size(), 2u);
+  for (const auto& curve : curves) EXPECT_TRUE(curve.is_smoothed);
+}
+
 TEST(SmoothBoundaries, BranchPointsStay) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);

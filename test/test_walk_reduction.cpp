@@ -149,6 +149,27 @@ TEST(SettleBand, ABandReachesSoManyNodesFromABoundary) {
   EXPECT_EQ(internal::band_along_boundaries(path(10), std::vector<std::size_t>(10, 4), 3).size(), 0u);
 }
 
+TEST(SettleBand, FragmentsAreUnionsOfClustersWithoutABandAndThoseOfTheFacesWithOneOverAll) {
+  const Dual_graph graph = networks::triangulated_torus(24);
+  const std::vector<double> conductances = random_conductances(graph), lengths(graph.number_of_edges(), 1.);
+  const std::vector<Index> seeds = {5, 300, 700, 1000};
+  const internal::Components component = internal::components(graph, conductances);
+  const internal::Walk_network network{graph, conductances, component};
+  Walk_reduction reduction;
+  reduction.band = 0;
+  const auto fragments = [&] {
+    return internal::walk_fragments_over_clusters(network, lengths, seeds, reduction, {}).of_face;
+  };
+  const std::vector<std::size_t> unions = fragments();
+  const Face_clusters clusters = internal::clusters_around(seeds, network, lengths, reduction);
+  for (Index f = 0; f < unions.size(); ++f) EXPECT_EQ(unions[f], unions[clusters.root[clusters.of_face[f]]]);
+
+  const auto walked = internal::walk_labels(graph, conductances, seeds, {0, 1, 2, 3});
+  EXPECT_NE(unions, walked);
+  reduction.band = clusters.root.size();
+  EXPECT_EQ(fragments(), walked);
+}
+
 TEST(WalkReduction, FindsTheSegmentsOfTheDirectWalk) {
   for (const auto& shape :
        {meshes::two_spheres_with_neck(2.4, 0.3, 96), meshes::two_spheres_with_neck(2.0001, 0.2, 64)}) {

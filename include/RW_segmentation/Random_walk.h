@@ -232,7 +232,7 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
   std::vector<Labelled_face> labelled;
   for (const auto& seed : seeds) labelled.push_back(labelled_face(seed, labelled.size()));
   std::map<Label, std::size_t> id_of_label;
-  for (const auto& seed : labelled) id_of_label[seed.second] = 0;
+  for (const auto& seed : labelled) id_of_label.try_emplace(seed.second);
   std::size_t ids = 0;
   for (auto& entry : id_of_label) entry.second = ids++;
 

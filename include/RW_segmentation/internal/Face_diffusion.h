@@ -188,7 +188,7 @@ class Face_diffusion {
     result.members.resize(aggregate.size());
     for (const Index a : aggregate) ++result.begin[a + std::size_t(1)];
     std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-    std::vector<Index> next(result.begin.begin(), result.begin.end() - 1);
+    std::vector<Index> next = result.begin;
     for (std::size_t i = 0; i < aggregate.size(); ++i) result.members[next[aggregate[i]]++] = static_cast<Index>(i);
     return result;
   }
@@ -200,7 +200,7 @@ class Face_diffusion {
     Level coarse;
     coarse.resize(n);
     coarse.links.reserve(fine.links.size() / 2);
-    std::vector<std::size_t> position(n, 0);  // of the link to a node, if it lies in the row at hand
+    std::vector<std::size_t> behind(n, 0);  // the link to a node, if it lies in the row at hand
     for (std::size_t node = 0; node < n; ++node) {
       const std::size_t row = coarse.links.size();
       float mass = 0;
@@ -210,12 +210,11 @@ class Face_diffusion {
         for (std::size_t k = fine.row[member]; k < fine.row[member + 1]; ++k) {
           const Index to = fine.aggregate[fine.links[k].to];
           if (to == node) continue;
-          std::size_t& link = position[to];
-          if (link < row || link >= coarse.links.size() || coarse.links[link].to != to) {
-            link = coarse.links.size();
+          if (behind[to] <= row) {
             coarse.links.push_back({to, 0});
+            behind[to] = coarse.links.size();
           }
-          coarse.links[link].weight += fine.links[k].weight;
+          coarse.links[behind[to] - 1].weight += fine.links[k].weight;
         }
       }
       coarse.close_row(node, mass);
