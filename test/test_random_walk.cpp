@@ -388,6 +388,7 @@ TEST(SeedEditing, StaysRightWhenSeedsOfTheFactorComeBackAfterOthers) {
   add(0);
   for (const std::size_t l : {1, 2}) {
     walk.remove_seed(seeds[l]);
+    walk.labels();
     add(l);
   }
   add(3);
