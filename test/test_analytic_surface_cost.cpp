@@ -79,7 +79,7 @@ TEST(AnalyticSurfaceCost, OfPartsOfAPlaneIsWhatTheNumberOfTheirVerticesProves) {
     return whole;
   };
   const Region_boundary boundary = {{1, 0}, {1, 0}};
-  for (const std::size_t pairs : {1, 2, 3, 5}) {  // of triangles along a row
+  for (const std::size_t pairs : {1u, 2u, 3u, 5u}) {  // of triangles along a row
     const double vertices = 2. * static_cast<double>(pairs) + 2;
     const double expected = 3 / (vertices - 3) / (1.5 * 1.5);
     EXPECT_NEAR(cost(region(0, 1), region(1, 2 * pairs - 1), boundary), expected, 1e-6) << pairs;

@@ -121,12 +121,11 @@ TEST(DividedTriangle, IsDividedAsWellAsCanBeAlongItsChords) {
     ASSERT_EQ(triangles.size(), size - 2);
 
     std::map<Chord, std::size_t> triangle_on_the_left;
-    double area = 0, quality = 1, least_height = std::numeric_limits<double>::infinity();
+    double quality = 1, least_height = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto& [i, j, k] = triangles[t];
       const Eigen::Vector3d &a = outline.points[i], &b = outline.points[j], &c = outline.points[k];
       const double doubled_area = (b - a).cross(c - a).norm();
-      area += doubled_area / 2;
       quality = std::min(quality, relative_height(a, b, c));
       least_height = std::min(least_height, doubled_area / std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}));
       for (const Chord& side : {Chord{i, j}, Chord{j, k}, Chord{k, i}})

@@ -236,7 +236,7 @@ TEST(EngineeringSegmentation, TakesTheWholeSolidForOneSurfaceUnderNoiseThatHides
 }
 
 TEST(EngineeringSegmentation, CutsACubeIntoSix) {
-  for (const std::size_t n : {1, 2, 7}) {
+  for (const std::size_t n : {1u, 2u, 7u}) {
     const Labels segments = segments_of(meshes::surface_mesh(meshes::cube(n)));
     EXPECT_EQ(number_of(segments), 6u);
     for (std::size_t f = 0; f < segments.size(); ++f) EXPECT_EQ(segments[f], f / (2 * n * n));
@@ -251,7 +251,7 @@ TEST(EngineeringSegmentation, LeavesASphereATorusAndAPlaneWhole) {
 
 TEST(EngineeringSegmentation, GivesAsManySegmentsAsAskedFor) {
   const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
-  for (const std::size_t n : {1, 2, 3}) EXPECT_EQ(number_of(segments_of(mesh, Engineering_segmentation(n))), n);
+  for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Engineering_segmentation(n))), n);
 }
 
 TEST(EngineeringSegmentation, NeverJoinsComponents) {

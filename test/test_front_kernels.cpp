@@ -133,7 +133,7 @@ TEST(FrontKernels, LeaveNothingOfPivotsThatAreCutOffAndKeepTheSharesOfTheFaintes
   for (std::size_t i = 0; i < front.size(); ++i) {
     front.panel[2 * front.size() + i] = 0;
     front.panel[4 * front.size() + i] *= 1e-300;
-    for (const std::size_t k : {0, 1, 3}) front.panel[k * front.size() + 2] = front.panel[k * front.size() + 4] = 0;
+    for (const std::size_t k : {0u, 1u, 3u}) front.panel[k * front.size() + 2] = front.panel[k * front.size() + 4] = 0;
   }
   front.ground[2] = front.ground[4] = 0;
   Numbers expected = front;

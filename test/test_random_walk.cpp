@@ -312,7 +312,7 @@ TEST(SeedEditing, ChangesNothingWhenASeedIsAddedAndRemoved) {
   Random_walk walk(mesh, dihedral_conductances(mesh));
   for (std::size_t l = 0; l < 5; ++l) walk.add_seed(before.face(1000 * l), l);
   walk.segment(before.map());
-  for (const std::size_t f : {500, 1500, 2500}) {
+  for (const std::size_t f : {500u, 1500u, 2500u}) {
     walk.add_seed(before.face(f), 9);
     walk.segment(after.map());
     EXPECT_NE(before.values(), after.values());
@@ -359,11 +359,11 @@ TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
   for (networks::Index l = 0; l < 4; ++l) walk.add_seed(50 * l, l);
   const auto before = walk.labels();
   const auto potential = walk.potential(2);
-  for (const networks::Index l : {0, 1, 2}) {  // all of them but one leave and come back
+  for (const networks::Index l : {0u, 1u, 2u}) {  // all of them but one leave and come back
     walk.remove_seed(50 * l);
     walk.labels();
   }
-  for (const networks::Index l : {1, 2, 0}) {
+  for (const networks::Index l : {1u, 2u, 0u}) {
     walk.add_seed(50 * l, l);
     walk.labels();
   }
@@ -386,7 +386,7 @@ TEST(SeedEditing, StaysRightWhenSeedsOfTheFactorComeBackAfterOthers) {
   walk.add_seed(seeds[1], 1);
   add(2);
   add(0);
-  for (const std::size_t l : {1, 2}) {
+  for (const std::size_t l : {1u, 2u}) {
     walk.remove_seed(seeds[l]);
     walk.labels();
     add(l);

@@ -155,7 +155,7 @@ TEST(AutomaticSegmentation, TakesTheShapeFromSmoothedVerticesUnderHeavyNoiseAlon
 }
 
 TEST(AutomaticSegmentation, CutsTheArmsOfAnLApartWhenAskedForTwo) {
-  for (const std::size_t n : {4, 8, 16, 32}) {
+  for (const std::size_t n : {4u, 8u, 16u, 32u}) {
     const meshes::Shape shape = meshes::l_shape(n);
     const auto ids = segments_of(shape, Automatic_segmentation(2));
     std::set<std::size_t> of_one_arm, of_the_other;

@@ -281,7 +281,7 @@ TEST(SmoothBoundaries, RingsRoundAFaceOrAVertexStay) {
 TEST(SmoothBoundaries, RingsRoundAVertexOfManyFacesStayOnEitherSide) {
   const Shape shape = meshes::two_spheres_with_neck(3, 0.4, 24);  // with poles
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  for (const std::size_t at_poles : {0, 1}) {
+  for (const std::size_t at_poles : {0u, 1u}) {
     Labels labels(shape.faces.size(), 1 - at_poles);
     for (const auto v : mesh.vertices())
       if (mesh.degree(v) == 24)

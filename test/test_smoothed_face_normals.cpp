@@ -288,7 +288,7 @@ TEST(Smoothed_face_normals, OfFacesWithoutAreaAreThoseOfTheirSurroundings) {
 
 TEST(Smoothed_face_normals, OfAFlatMeshAreNotChangedByFacesThatArePoints) {
   meshes::Shape shape = meshes::plane(4);
-  for (const std::size_t v : {7, 11, 12}) shape.points[v] = shape.points[6];  // a square
+  for (const std::size_t v : {7u, 11u, 12u}) shape.points[v] = shape.points[6];  // a square
   for (unsigned order = 1; order <= 10; ++order) {
     const auto faces_in_order = meshes::random_order(shape.faces.size(), order);
     std::size_t unknown = 0;

@@ -101,7 +101,7 @@ TYPED_TEST_SUITE(SplitAlongBoundaries, Mutable_holders);
 
 TYPED_TEST(SplitAlongBoundaries, SurfaceAndSegmentsStayWhatTheyWere) {
   for (const Shape& shape : {bumpy_torus(), meshes::sphere(3), meshes::two_spheres_with_neck(3, 0.3, 24)})
-    for (const std::size_t segments : {2, 9, 40}) {
+    for (const std::size_t segments : {2u, 9u, 40u}) {
       TypeParam held(shape);
       Face_labels<typename TypeParam::Mesh> labels(held.mesh, random_cells(shape, segments));
       const Split_report report = refine(held.mesh, labels);
@@ -128,7 +128,7 @@ TYPED_TEST(SplitAlongBoundaries, EachComponentIsCutByItself) {
 
 TYPED_TEST(SplitAlongBoundaries, LabelsWithoutAnyOrderSurvive) {
   const Shape shape = meshes::sphere(3);
-  for (const std::size_t number : {2, 3, 20}) {
+  for (const std::size_t number : {2u, 3u, 20u}) {
     TypeParam held(shape);
     std::mt19937 random(5);
     Labels chaos;

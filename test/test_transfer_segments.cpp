@@ -113,7 +113,7 @@ TEST(TransferSegments, ABandOfOneFaceTakesInATooth) {
   const std::size_t other = 1 - get(ids.map(), tooth);
   put(ids.map(), tooth, other);
   auto before = ids;
-  for (const std::size_t band : {0, 1}) {
+  for (const std::size_t band : {0u, 1u}) {
     Face_labels<Mesh> result(mesh);
     transfer_segments(mesh, before.map(), mesh, even_conductance(), result.map(), band);
     EXPECT_EQ(get(result.map(), tooth), band == 0 ? other : 1 - other);

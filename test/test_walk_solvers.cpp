@@ -139,7 +139,7 @@ TEST(StarMeshElimination, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
     return potentials(solver, network, seeds);
   };
   const Potentials expected = potentials_with(1);
-  for (const std::size_t threads : {2, 4}) EXPECT_TRUE((potentials_with(threads).array() == expected.array()).all());
+  for (const std::size_t threads : {2u, 4u}) EXPECT_TRUE((potentials_with(threads).array() == expected.array()).all());
 #else
   GTEST_SKIP() << "TBB is not linked";
 #endif
