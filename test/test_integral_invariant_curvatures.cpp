@@ -235,6 +235,8 @@ TEST(Ball_moments, DoNotJumpWhereTheSphereTouchesAVertexOrAnEdge) {
     const Moments at = moments(shape, face, r);
     EXPECT_LE((at - moments(shape, face, r * (1 - 1e-10))).norm(), 1e-7) << r;
     EXPECT_LE((at - moments(shape, face, r * (1 + 1e-10))).norm(), 1e-7) << r;
+    for (int ulps = -8; ulps <= 8; ++ulps)
+      EXPECT_LE((at - moments(shape, face, r * (1 + ulps * std::numeric_limits<double>::epsilon()))).norm(), 1e-7) << r;
   }
 }
 

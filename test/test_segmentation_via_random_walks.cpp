@@ -255,7 +255,8 @@ TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
 }
 
 TEST(AutomaticPathologies, TheCallbackSeesProgressAndCancels) {
-  const auto mesh = meshes::surface_mesh(dumbbell());
+  // Large enough for the walk to report within its stages.
+  const auto mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(2.4, 0.3, 64));
   Face_labels<meshes::Surface_mesh> ids(mesh);
   std::vector<double> seen;
   const auto run = [&](double end) {
