@@ -1,18 +1,23 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_CONDUCTANCE_H
 #define RW_SEGMENTATION_CONDUCTANCE_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/Shared_edge_values.h>
+#include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/property_map.h>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace RW_segmentation {
@@ -25,38 +30,28 @@ inline void require_conductance_numbers(double sigma, double cap) {
   if (!(cap > 0)) throw argument_error("cap", cap, "positive");
 }
 
-/// The core of `Conductance`: Eq. 6 for arrays in the order of the edges.
-inline std::vector<double> conductances(const std::vector<double>& edge_length, const std::vector<double>& differences,
-                                        double sigma, double cap) {
+/// Eq. 6.
+inline std::vector<double> conductances(const Dual_mesh& mesh, const std::vector<double>& differences, double sigma,
+                                        double cap) {
   // exp(-600) = 1e-261 times a length remains a normal number.
   constexpr double largest_exponent = 600;
   // An edge without length must not cut the graph.
   constexpr double shortest_length = 1e-6;
 
   require_conductance_numbers(sigma, cap);
-  double sum = 0;
-  for (const double length : edge_length) sum += length;
-  const double shortest = sum > 0 ? shortest_length * sum / static_cast<double>(edge_length.size()) : 1;
+  const std::vector<double>& length = mesh.edge_lengths();
+  const double mean_length = mesh.mean_edge_length();
+  const double shortest = mean_length > 0 ? shortest_length * mean_length : 1;
 
   const double limit = std::min(cap, largest_exponent);
   std::vector<double> w(differences.size());
   parallel_stretches(w.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e)
-      w[e] = std::max(edge_length[e], shortest) * std::exp(-std::min(differences[e] / sigma, limit));
+      w[e] = mesh.is_wall(static_cast<Dual_mesh::Index>(e))
+                 ? 0
+                 : std::max(length[e], shortest) * std::exp(-std::min(differences[e] / sigma, limit));
   });
   return w;
-}
-
-/// Sets the conductances of the edges marked by the named parameter `edge_is_constrained_map` to 0.
-template <class FaceListGraph, class NamedParameters>
-void cut_constrained_edges(const Mesh_dual_graph<FaceListGraph>& graph, const NamedParameters& np,
-                           std::vector<double>& conductances) {
-  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
-  const auto constrained =
-      CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained),
-                                         CGAL::Static_boolean_property_map<edge_descriptor, false>());
-  for (std::size_t e = 0; e < conductances.size(); ++e)
-    if (get(constrained, graph.edge_descriptors()[e])) conductances[e] = 0;
 }
 
 }  // namespace internal
@@ -77,6 +72,8 @@ template <class FaceListGraph>
 class Conductance : public internal::Shared_edge_values<FaceListGraph> {
  public:
   using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
+  /// What functions that take conductances ask for, so that no difference is mistaken for one.
+  using is_conductance = std::true_type;
 
   /// Computes all conductances. Complexity: linear, plus one call of `get(difference, edge)` for each interior edge.
   ///
@@ -99,23 +96,62 @@ class Conductance : public internal::Shared_edge_values<FaceListGraph> {
   template <class Difference, class NamedParameters = CGAL::parameters::Default_named_parameters>
   Conductance(const FaceListGraph& mesh, const Difference& difference, double sigma = 1, double cap = 20,
               const NamedParameters& np = CGAL::parameters::default_values())
-      : Base(computed(mesh, difference, sigma, cap, np)) {}
+      : Base(computed(internal::dual_mesh(mesh, np), difference, sigma, cap)) {
+    static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained>,
+                  "Conductance takes the named parameters vertex_point_map and edge_is_constrained_map.");
+  }
 
  private:
   using Base = internal::Shared_edge_values<FaceListGraph>;
 
-  template <class Difference, class NamedParameters>
-  static Base computed(const FaceListGraph& mesh, const Difference& difference, double sigma, double cap,
-                       const NamedParameters& np) {
+  template <class Mesh, class Difference>
+  static Base computed(const Dual_mesh_of<Mesh>& mesh, const Difference& difference, double sigma, double cap) {
     internal::require_conductance_numbers(sigma, cap);
-    const Mesh_dual_graph<FaceListGraph> graph(mesh);
-    const std::vector<double> d = internal::read_edge_values(graph, difference, "the difference");
-    const std::vector<double> length = internal::edge_lengths(mesh, graph, internal::Unit_box_points(mesh, np));
-    std::vector<double> w = internal::conductances(length, d, sigma, cap);
-    internal::cut_constrained_edges(graph, np, w);
-    return Base(graph, w);
+    return Base(mesh, internal::conductances(mesh, mesh.read_edges(difference, "the difference"), sigma, cap));
   }
 };
+
+/// A user's own edge map, taken for conductances; made by `as_conductance()`.
+///
+/// \tparam EdgeMap a readable property map from `edge_descriptor` to a number >= 0
+template <class EdgeMap>
+class Conductance_map {
+ public:
+  /// \cond  what a property map names
+  using key_type = typename boost::property_traits<EdgeMap>::key_type;
+  using value_type = typename boost::property_traits<EdgeMap>::value_type;
+  using reference = typename boost::property_traits<EdgeMap>::reference;
+  using category = boost::readable_property_map_tag;
+  /// \endcond
+  /// What functions that take conductances ask for.
+  using is_conductance = std::true_type;
+
+  /// Keeps a copy of the map.
+  explicit Conductance_map(const EdgeMap& values) : values_(values) {}
+
+  friend reference get(const Conductance_map& map, const key_type& edge) { return get(map.values_, edge); }
+
+ private:
+  EdgeMap values_;
+};
+
+/// Says that the values of a map are conductances, where `Conductance` would compute them otherwise than wanted: how
+/// easily a walk crosses each edge, finite and not negative, 0 where it cannot.
+///
+/// \tparam EdgeMap a readable property map from `edge_descriptor` to a number
+template <class EdgeMap>
+Conductance_map<EdgeMap> as_conductance(const EdgeMap& values) {
+  return Conductance_map<EdgeMap>(values);
+}
+
+namespace internal {
+
+template <class T, class = void>
+struct Is_conductance : std::false_type {};
+template <class T>
+struct Is_conductance<T, std::void_t<typename T::is_conductance>> : std::true_type {};
+
+}  // namespace internal
 
 }  // namespace RW_segmentation
 

@@ -1,14 +1,18 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_CURVATURE_DIFFERENCE_H
 #define RW_SEGMENTATION_CURVATURE_DIFFERENCE_H
 
 #include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Progress.h>
 #include <RW_segmentation/integral_invariant_curvatures.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/Shared_edge_values.h>
+#include <RW_segmentation/internal/named_parameters.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,28 +38,26 @@ inline double robust_mean(const std::vector<double>& d, const std::vector<double
   return mean * mean;
 }
 
-/// The core of `Curvature_difference`: Eq. 7 and 8 for curvatures in the order of the faces, in the unit of the
-/// geometry; values in the order of the edges.
-inline std::vector<double> curvature_difference(const Dual_graph& graph, const Face_geometry& geometry,
+/// Eq. 7 and 8 for curvatures in the order of the faces, in the unit box.
+inline std::vector<double> curvature_difference(const Dual_mesh& mesh,
                                                 const std::vector<Surface_curvatures>& curvatures) {
-  const std::size_t edges = graph.number_of_edges();
+  const std::size_t edges = mesh.number_of_edges();
   // Below this angle in an edge's length a surface is flat, and its curvatures are the rounding of coordinates.
-  const double edge = std::max(geometry.mean_edge_length(), 1e-12);
-  const double flat = std::max(1e-6, 2 * geometry.rounding / edge);
+  const double edge = std::max(mesh.mean_edge_length(), 1e-12);
+  const double flat = std::max(1e-6, 2 * mesh.rounding() / edge);
 
   std::vector<double> d2(edges), d3(edges);
   for (std::size_t e = 0; e < edges; ++e) {
-    const auto [i, j] = graph.faces_of(static_cast<Dual_graph::Index>(e));
-    if (geometry.normal[i].isZero(0) || geometry.normal[j].isZero(0)) continue;
+    const auto [i, j] = mesh.graph().faces_of(static_cast<Dual_mesh::Index>(e));
+    if (mesh.normal(i).isZero(0) || mesh.normal(j).isZero(0)) continue;
     d2[e] = std::abs(curvatures[i].gaussian_curvature() - curvatures[j].gaussian_curvature());
     d3[e] = std::abs(curvatures[i].mean_curvature() - curvatures[j].mean_curvature());
   }
 
   constexpr double convex_weight = 1;
-  std::vector<double> d =
-      dihedral_difference(graph, geometry, geometry.normal, convex_weight, Dihedral_measure::one_minus_cosine);
+  std::vector<double> d = Dihedral_difference_policy{convex_weight}(mesh.with_shape_normals(mesh.normals()));
   const auto raise = [&](const std::vector<double>& term, double smallest_mean) {
-    const double mean = robust_mean(term, geometry.edge_length);
+    const double mean = robust_mean(term, mesh.edge_lengths());
     if (!(mean > smallest_mean)) return;
     for (std::size_t e = 0; e < edges; ++e) d[e] = std::max(d[e], term[e] / mean);
   };
@@ -64,29 +66,42 @@ inline std::vector<double> curvature_difference(const Dual_graph& graph, const F
   return d;
 }
 
-/// A face map of curvatures, in the order of the faces and the unit of the geometry.
-/// \throws std::invalid_argument if a curvature is not finite, naming the face by its number
-template <class FaceListGraph, class CurvatureMap>
-std::vector<Surface_curvatures> read_curvatures(const Mesh_dual_graph<FaceListGraph>& graph,
-                                                const Face_geometry& geometry, const CurvatureMap& map) {
-  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
-  static_assert(is_readable_map<CurvatureMap, face_descriptor>,
-                "A readable property map from the mesh's face_descriptor to Surface_curvatures is needed here.");
-  std::vector<Surface_curvatures> curvatures;
-  curvatures.reserve(graph.number_of_faces());
-  for (const face_descriptor f : graph.face_descriptors()) {
-    Surface_curvatures value = get(map, f);
-    value.max_curvature *= geometry.unit;
-    value.min_curvature *= geometry.unit;
-    if (!std::isfinite(value.gaussian_curvature()))
-      throw argument_error(("the curvature of face " + std::to_string(curvatures.size())).c_str(),
-                           value.gaussian_curvature(), "finite");
-    curvatures.push_back(value);
+/// A face map of curvatures, in the order of the faces and in the unit box.
+/// \throws std::invalid_argument if a curvature is not finite, naming the face by its place
+template <class Mesh, class CurvatureMap>
+std::vector<Surface_curvatures> read_curvatures(const Dual_mesh_of<Mesh>& mesh, const CurvatureMap& map) {
+  std::vector<Surface_curvatures> curvatures =
+      mesh.read_faces(map, [](const auto& value) { return Surface_curvatures(value); });
+  for (std::size_t f = 0; f < curvatures.size(); ++f) {
+    curvatures[f].max_curvature *= mesh.unit();
+    curvatures[f].min_curvature *= mesh.unit();
+    if (!std::isfinite(curvatures[f].gaussian_curvature()))
+      throw argument_error(
+          ("the curvature of face " + std::to_string(mesh.place(static_cast<Dual_mesh::Index>(f)))).c_str(),
+          curvatures[f].gaussian_curvature(), "finite");
   }
   return curvatures;
 }
 
 }  // namespace internal
+
+/// How faces differ for engineering models, see `Curvature_difference`: a difference policy, a function object from a
+/// dual mesh to the differences of its edges.
+struct Curvature_difference_policy {
+  Ball_radius radius = Ball_radius::in_edge_lengths(3);  ///< of the balls in which curvatures are measured
+
+  /// Eq. 7 and 8. Complexity: that of `integral_invariant_curvatures()`.
+  /// \returns the difference of each edge
+  /// \throws std::invalid_argument if the radius is not positive
+  /// \throws Cancelled
+  template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+  std::vector<double> operator()(const Dual_mesh& mesh, const Progress& progress = {}) const {
+    std::vector<Curvature_report> reports;
+    const auto curvatures =
+        internal::curvatures_of_faces<ConcurrencyTag>(mesh, {internal::length_of(radius, mesh)}, reports, progress);
+    return internal::curvature_difference(mesh, curvatures.front());
+  }
+};
 
 /// The difference of two faces for engineering models (Eq. 7 and 8): the largest of
 ///
@@ -121,14 +136,12 @@ class Curvature_difference : public internal::Shared_edge_values<FaceListGraph> 
   template <class NamedParameters = CGAL::parameters::Default_named_parameters>
   explicit Curvature_difference(const FaceListGraph& mesh, Ball_radius radius = Ball_radius::in_edge_lengths(3),
                                 const NamedParameters& np = CGAL::parameters::default_values())
-      : Base(computed(mesh, np, [&](const auto& graph, const auto& geometry) {
-          const internal::Triangulated_faces surface(mesh, graph, geometry, np);
-          std::vector<Curvature_report> reports;
-          return internal::curvatures_of_faces<CGAL::Parallel_if_available_tag>(graph, geometry, surface,
-                                                                                {internal::length_of(radius, geometry)},
-                                                                                reports, internal::progress_of(np))
-              .front();
-        })) {}
+      : Base(computed(internal::dual_mesh(mesh, np), [&](const auto& dual) {
+          return Curvature_difference_policy{radius}(dual, internal::progress_of(np));
+        })) {
+    static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Callback>,
+                  "Curvature_difference takes the named parameters vertex_point_map and callback.");
+  }
 
   /// The difference by given curvatures. Complexity: linear.
   ///
@@ -142,18 +155,19 @@ class Curvature_difference : public internal::Shared_edge_values<FaceListGraph> 
             std::enable_if_t<!std::is_same_v<CurvatureMap, Ball_radius>, int> = 0>
   explicit Curvature_difference(const FaceListGraph& mesh, const CurvatureMap& curvatures,
                                 const NamedParameters& np = CGAL::parameters::default_values())
-      : Base(computed(mesh, np, [&](const auto& graph, const auto& geometry) {
-          return internal::read_curvatures(graph, geometry, curvatures);
-        })) {}
+      : Base(computed(internal::dual_mesh(mesh, np), [&](const auto& dual) {
+          return internal::curvature_difference(dual, internal::read_curvatures(dual, curvatures));
+        })) {
+    static_assert(internal::has_only<NamedParameters, internal::Vertex_point>,
+                  "Curvature_difference of given curvatures takes the named parameter vertex_point_map.");
+  }
 
  private:
   using Base = internal::Shared_edge_values<FaceListGraph>;
 
-  template <class NamedParameters, class Curvatures>
-  static Base computed(const FaceListGraph& mesh, const NamedParameters& np, const Curvatures& curvatures) {
-    const Mesh_dual_graph<FaceListGraph> graph(mesh);
-    const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-    return Base(graph, internal::curvature_difference(graph, geometry, curvatures(graph, geometry)));
+  template <class Mesh, class Difference>
+  static Base computed(const Dual_mesh_of<Mesh>& mesh, const Difference& difference) {
+    return Base(mesh, difference(mesh));
   }
 };
 

@@ -1,19 +1,25 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_DIHEDRAL_DIFFERENCE_H
 #define RW_SEGMENTATION_DIHEDRAL_DIFFERENCE_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/Shared_edge_values.h>
+#include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/parallel_for.h>
-#include <RW_segmentation/internal/read_normals.h>
+#include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <Eigen/Core>
 
+#include <boost/graph/graph_traits.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <type_traits>
 #include <vector>
@@ -26,42 +32,77 @@ enum class Dihedral_measure {
   angle              ///< |Ni - Nj| = 2 sin(theta / 2): theta itself for small angles, between 0 and 2
 };
 
+/// How faces differ by the angle between the normals of the shape, see `Dihedral_difference`: a difference policy, a
+/// function object from a dual mesh to the differences of its edges.
+struct Dihedral_difference_policy {
+  double convex_weight = 0.2;  ///< eta of convex edges, in [0, 1]; of concave ones it is 1
+  Dihedral_measure measure = Dihedral_measure::one_minus_cosine;  ///< what is taken of the angle
+  /// Differences up to so many times the mean count as none and larger ones lose it: sqrt(d^2 - x^2), divided by its mean
+  /// once more. Slight concavities are everywhere on a living shape and tell nothing about where its parts meet.
+  double ordinary_difference = 0;
+
+  /// Eq. 4 and 5 for the `shape_normals()` of a mesh.
+  /// \returns the difference of each edge
+  /// \throws std::invalid_argument if a number is out of range
+  /// Complexity: linear.
+  std::vector<double> operator()(const Dual_mesh& mesh) const;
+};
+
+/// The difference that agrees best with people on natural shapes, where normals are smoothed: the concavity in excess of
+/// an ordinary one.
+inline Dihedral_difference_policy smoothed_concavity() { return {0, Dihedral_measure::angle, 1}; }
+
 namespace internal {
 
-/// The core of `Dihedral_difference`: Eq. 4 and 5 for normals in the order of the faces; values in the order of the
-/// edges. A zero vector is no normal.
-inline std::vector<double> dihedral_difference(const Dual_graph& graph, const Face_geometry& geometry,
-                                               const std::vector<Eigen::Vector3d>& normals, double convex_weight,
-                                               Dihedral_measure measure) {
-  if (!(convex_weight >= 0 && convex_weight <= 1))
-    throw argument_error("convex_weight", convex_weight, "between 0 and 1");
+/// \throws std::invalid_argument
+inline void require_dihedral_numbers(const Dihedral_difference_policy& policy) {
+  if (!(policy.convex_weight >= 0 && policy.convex_weight <= 1))
+    throw argument_error("convex_weight", policy.convex_weight, "between 0 and 1");
+  if (!(policy.ordinary_difference >= 0))
+    throw argument_error("ordinary_difference", policy.ordinary_difference, "at least 0");
+}
 
+/// Divides numbers by their mean; all become 0 if it is below a limit.
+inline void divide_by_mean(std::vector<double>& d, double least_mean) {
+  const double mean = d.empty() ? 0 : std::accumulate(d.begin(), d.end(), 0.) / static_cast<double>(d.size());
+  for (double& value : d) value = mean < least_mean ? 0 : value / mean;
+}
+
+/// Eq. 4.
+inline std::vector<double> weighted_angles(const Dual_mesh& mesh, double convex_weight, Dihedral_measure measure) {
   // |Ni - Nj|^2 of faces folded onto each other, up to 1e-6 radians: there only rounding tells convex from concave.
   constexpr double folded = 4 - 1e-12;
-  const std::size_t edges = graph.number_of_edges();
-  std::vector<double> d(edges);
-  parallel_stretches(edges, [&](std::size_t begin, std::size_t end) {
+  const std::vector<Eigen::Vector3d>& normals = mesh.shape_normals();
+  std::vector<double> d(mesh.number_of_edges());
+  parallel_stretches(d.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      const auto [i, j] = graph.faces_of(static_cast<Dual_graph::Index>(e));
+      const auto [i, j] = mesh.graph().faces_of(static_cast<Dual_mesh::Index>(e));
       const Eigen::Vector3d turn = normals[j] - normals[i];
       if (normals[i].isZero(0) || normals[j].isZero(0)) continue;
-      const bool concave = turn.dot(geometry.centroid[j] - geometry.centroid[i]) < 0 && turn.squaredNorm() < folded;
+      const bool concave = turn.dot(mesh.centroid(j) - mesh.centroid(i)) < 0 && turn.squaredNorm() < folded;
       const double eta = concave ? 1 : convex_weight;
       // |Ni - Nj|^2 / 2, because 1 - Ni.Nj would lose all digits on flat edges.
       d[e] = eta * (measure == Dihedral_measure::angle ? turn.norm() : turn.squaredNorm() / 2);
     }
   });
-  const double sum = std::accumulate(d.begin(), d.end(), 0.);
-
-  // Below these means the mesh is flat, and its angles are the rounding of coordinates.
-  const double flat_angle = std::max(1e-6, 2 * geometry.rounding / std::max(geometry.mean_edge_length(), 1e-12));
-  const double flat = measure == Dihedral_measure::angle ? flat_angle : flat_angle * flat_angle;
-  const double mean = edges == 0 ? 0 : sum / static_cast<double>(edges);
-  for (double& value : d) value = mean < flat ? 0 : value / mean;
   return d;
 }
 
 }  // namespace internal
+
+inline std::vector<double> Dihedral_difference_policy::operator()(const Dual_mesh& mesh) const {
+  internal::require_dihedral_numbers(*this);
+  std::vector<double> d = internal::weighted_angles(mesh, convex_weight, measure);
+  // Below this the mesh is flat, and its angles are the rounding of coordinates.
+  const double flat_angle = std::max(1e-6, 2 * mesh.rounding() / std::max(mesh.mean_edge_length(), 1e-12));
+  internal::divide_by_mean(d, measure == Dihedral_measure::angle ? flat_angle : flat_angle * flat_angle);
+  if (ordinary_difference > 0) {
+    for (double& value : d)
+      value = value > ordinary_difference ? std::sqrt(value * value - ordinary_difference * ordinary_difference) : 0;
+    internal::divide_by_mean(d, std::numeric_limits<double>::min());
+  }
+  return d;
+}
 
 /// The difference of two faces by the angle between their normals (Eq. 4 and 5):
 /// d1 = eta (1 - cos theta), divided by its mean over all interior edges, so that 1 is an average edge.
@@ -77,24 +118,32 @@ inline std::vector<double> dihedral_difference(const Dual_graph& graph, const Fa
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 template <class FaceListGraph>
 class Dihedral_difference : public internal::Shared_edge_values<FaceListGraph> {
+  using Base = internal::Shared_edge_values<FaceListGraph>;
+  using Face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+
  public:
   using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
 
-  /// The difference by the faces' own normals. Complexity: linear.
+  /// The difference by the normals of the shape: the faces' own, or those of `smoothed_shape()`. Complexity: linear.
   ///
   /// \tparam NamedParameters a sequence of CGAL's named parameters
   /// \param mesh the mesh; no reference to it is kept
-  /// \param convex_weight eta of convex edges, in [0, 1]; the paper's value is 0.2
-  /// \param measure what is taken of the angle
+  /// \param policy the numbers of the difference
   /// \param np `vertex_point_map` (default: that of the mesh)
-  /// \throws std::invalid_argument if `convex_weight` lies outside [0, 1] or a coordinate is not finite (names the
-  /// vertex)
+  /// \throws std::invalid_argument if a number is out of range or a coordinate is not finite (names the vertex)
+  template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+  explicit Dihedral_difference(const FaceListGraph& mesh, const Dihedral_difference_policy& policy,
+                               const NamedParameters& np = CGAL::parameters::default_values())
+      : Base(computed(internal::dual_mesh(mesh, np), policy)) {
+    require_names<NamedParameters>();
+  }
+
+  /// As above, with the paper's numbers if none are given.
   template <class NamedParameters = CGAL::parameters::Default_named_parameters>
   explicit Dihedral_difference(const FaceListGraph& mesh, double convex_weight = 0.2,
                                Dihedral_measure measure = Dihedral_measure::one_minus_cosine,
                                const NamedParameters& np = CGAL::parameters::default_values())
-      : Base(computed(mesh, convex_weight, measure, np,
-                      [](const auto&, const auto& geometry) { return geometry.normal; })) {}
+      : Dihedral_difference(mesh, Dihedral_difference_policy{convex_weight, measure}, np) {}
 
   /// The difference by given normals, such as those of `smoothed_face_normals()`. Complexity: linear.
   ///
@@ -102,28 +151,40 @@ class Dihedral_difference : public internal::Shared_edge_values<FaceListGraph> {
   /// \tparam NamedParameters a sequence of CGAL's named parameters
   /// \param mesh the mesh; no reference to it is kept
   /// \param normals the faces' outward normals, of any length; a zero vector says that a face has none
-  /// \param convex_weight eta of convex edges, in [0, 1]; the paper's value is 0.2
-  /// \param measure what is taken of the angle
+  /// \param policy the numbers of the difference
   /// \param np `vertex_point_map` (default: that of the mesh)
-  /// \throws std::invalid_argument if `convex_weight` lies outside [0, 1], or a normal or a coordinate is not finite
+  /// \throws std::invalid_argument if a number is out of range, or a normal or a coordinate is not finite
   template <class FaceNormalMap, class NamedParameters = CGAL::parameters::Default_named_parameters,
-            std::enable_if_t<!std::is_arithmetic_v<FaceNormalMap>, int> = 0>
+            std::enable_if_t<internal::is_readable_map<FaceNormalMap, Face_descriptor>, int> = 0>
+  explicit Dihedral_difference(const FaceListGraph& mesh, const FaceNormalMap& normals,
+                               const Dihedral_difference_policy& policy,
+                               const NamedParameters& np = CGAL::parameters::default_values())
+      : Base(computed(internal::dual_mesh(mesh, np), normals, policy)) {
+    require_names<NamedParameters>();
+  }
+
+  /// As above, with the paper's numbers if none are given.
+  template <class FaceNormalMap, class NamedParameters = CGAL::parameters::Default_named_parameters,
+            std::enable_if_t<internal::is_readable_map<FaceNormalMap, Face_descriptor>, int> = 0>
   explicit Dihedral_difference(const FaceListGraph& mesh, const FaceNormalMap& normals, double convex_weight = 0.2,
                                Dihedral_measure measure = Dihedral_measure::one_minus_cosine,
                                const NamedParameters& np = CGAL::parameters::default_values())
-      : Base(computed(mesh, convex_weight, measure, np,
-                      [&](const auto& graph, const auto&) { return internal::read_normals(graph, normals); })) {}
+      : Dihedral_difference(mesh, normals, Dihedral_difference_policy{convex_weight, measure}, np) {}
 
  private:
-  using Base = internal::Shared_edge_values<FaceListGraph>;
-
-  template <class NamedParameters, class Normals>
-  static Base computed(const FaceListGraph& mesh, double convex_weight, Dihedral_measure measure,
-                       const NamedParameters& np, const Normals& normals) {
-    const Mesh_dual_graph<FaceListGraph> graph(mesh);
-    const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-    return Base(graph,
-                internal::dihedral_difference(graph, geometry, normals(graph, geometry), convex_weight, measure));
+  template <class NamedParameters>
+  static constexpr void require_names() {
+    static_assert(internal::has_only<NamedParameters, internal::Vertex_point>,
+                  "Dihedral_difference takes the named parameter vertex_point_map.");
+  }
+  template <class Mesh>
+  static Base computed(const Dual_mesh_of<Mesh>& mesh, const Dihedral_difference_policy& policy) {
+    return Base(mesh, policy(mesh));
+  }
+  template <class Mesh, class FaceNormalMap>
+  static Base computed(const Dual_mesh_of<Mesh>& mesh, const FaceNormalMap& normals,
+                       const Dihedral_difference_policy& policy) {
+    return Base(mesh, policy(mesh.with_shape_normals(mesh.read_normals(normals))));
   }
 };
 

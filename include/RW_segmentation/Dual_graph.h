@@ -1,13 +1,12 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_DUAL_GRAPH_H
 #define RW_SEGMENTATION_DUAL_GRAPH_H
 
-#include <RW_segmentation/internal/Descriptor_index.h>
 #include <RW_segmentation/internal/check_number.h>
 
-#include <CGAL/boost/graph/iterator.h>
-#include <CGAL/boost/graph/properties.h>
-
 #include <boost/graph/graph_traits.hpp>
+#include <boost/graph/properties.hpp>
 #include <boost/iterator/counting_iterator.hpp>
 #include <boost/iterator/iterator_facade.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -114,129 +113,6 @@ class Dual_graph {
 
 namespace internal {
 
-/// The faces in breadth-first order, from the first one of each component.
-inline std::vector<Dual_graph::Index> breadth_first_order(const Dual_graph& graph) {
-  std::vector<Dual_graph::Index> order;
-  std::vector<bool> reached(graph.number_of_faces(), false);
-  order.reserve(reached.size());
-  const auto reach = [&](std::size_t face) {
-    if (reached[face]) return;
-    reached[face] = true;
-    order.push_back(static_cast<Dual_graph::Index>(face));
-  };
-  for (std::size_t f = 0; f < reached.size(); ++f) {
-    std::size_t next = order.size();
-    for (reach(f); next < order.size(); ++next)
-      for (const auto& neighbour : graph.neighbours(order[next])) reach(neighbour.face);
-  }
-  return order;
-}
-
-/// The faces on both sides of a mesh edge, that of `halfedge(edge, mesh)` first; null where the mesh ends.
-template <class FaceListGraph>
-auto faces_beside(typename boost::graph_traits<FaceListGraph>::edge_descriptor edge, const FaceListGraph& mesh) {
-  const auto h = halfedge(edge, mesh);
-  return std::make_pair(face(h, mesh), face(opposite(h, mesh), mesh));
-}
-
-}  // namespace internal
-
-/// The dual graph of a mesh together with the mesh's own descriptors.
-///
-/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`: `Surface_mesh`, `Polyhedron_3` with or without ids, OpenMesh,
-/// `Face_filtered_graph`, meshes with removed elements. Faces are numbered in the order of `faces(mesh)`, edges in the
-/// order of `edges(mesh)`, border edges left out, until they are renumbered. Ids that the mesh may hold are not used.
-template <class FaceListGraph>
-class Mesh_dual_graph : public Dual_graph {
- public:
-  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
-  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
-
-  /// The index of a descriptor that is not part of the graph.
-  static constexpr Index none = std::numeric_limits<Index>::max();
-
-  /// Reads the connectivity of the mesh; keeps no reference to it.
-  /// \throws std::length_error if there are 2^32 - 1 faces or more, or as many halfedges
-  /// Complexity: linear.
-  explicit Mesh_dual_graph(const FaceListGraph& mesh) {
-    internal::check_number(num_faces(mesh), "faces");
-    internal::check_number(2 * std::size_t(num_edges(mesh)), "halfedges");
-    const auto null_face = boost::graph_traits<FaceListGraph>::null_face();
-    faces_.reserve(num_faces(mesh));
-    index_.reserve(num_faces(mesh));
-    for (const face_descriptor f : faces(mesh)) {
-      index_.insert(f, static_cast<Index>(faces_.size()));
-      faces_.push_back(f);
-    }
-    std::vector<std::array<Index, 2>> ends;
-    ends.reserve(num_edges(mesh));
-    edges_.reserve(num_edges(mesh));
-    for (const edge_descriptor e : edges(mesh)) {
-      const auto [f, g] = internal::faces_beside(e, mesh);
-      if (f == null_face || g == null_face || f == g) continue;
-      ends.push_back({index_[f], index_[g]});
-      edges_.push_back(e);
-    }
-    static_cast<Dual_graph&>(*this) = Dual_graph(faces_.size(), std::move(ends));
-  }
-
-  /// Numbers faces and edges anew, so that neighbours have numbers that are close to each other whatever the order in
-  /// the mesh: faces breadth-first from the first one of each component, edges by the lower one of their faces. What
-  /// passes over a large graph then finds most of what it needs in the cache.
-  /// \returns the former number of each edge
-  /// Complexity: linear.
-  std::vector<Index> renumber_along_surface() {
-    const std::vector<Index> face_order = internal::breadth_first_order(*this);
-    std::vector<Index> number(face_order.size());
-    for (std::size_t i = 0; i < face_order.size(); ++i) number[face_order[i]] = static_cast<Index>(i);
-
-    std::vector<std::array<Index, 2>> ends;
-    std::vector<edge_descriptor> edges;
-    std::vector<Index> edge_order;
-    ends.reserve(edges_.size());
-    edges.reserve(edges_.size());
-    edge_order.reserve(edges_.size());
-    for (const Index f : face_order)
-      for (const auto& [g, e] : neighbours(f)) {
-        if (number[g] < number[f]) continue;
-        const auto [first, second] = faces_of(e);
-        ends.push_back({number[first], number[second]});
-        edges.push_back(edges_[e]);
-        edge_order.push_back(e);
-      }
-    std::vector<face_descriptor> faces;
-    faces.reserve(faces_.size());
-    for (const Index f : face_order) {
-      index_.insert(faces_[f], static_cast<Index>(faces.size()));
-      faces.push_back(faces_[f]);
-    }
-    faces_ = std::move(faces);
-    edges_ = std::move(edges);
-    static_cast<Dual_graph&>(*this) = Dual_graph(faces_.size(), std::move(ends));
-    return edge_order;
-  }
-
-  /// The face of the mesh that has a number.
-  face_descriptor face(Index i) const { return faces_[i]; }
-  /// All faces in the order of their numbers.
-  const std::vector<face_descriptor>& face_descriptors() const { return faces_; }
-
-  /// The mesh edge of an edge of the graph. Its first halfedge, `halfedge(edge(i), mesh)`, lies in `faces_of(i)[0]`.
-  edge_descriptor edge(Index i) const { return edges_[i]; }
-  /// All edges in the order of their numbers.
-  const std::vector<edge_descriptor>& edge_descriptors() const { return edges_; }
-
-  /// The number of a face, `none` if the mesh had no such face.
-  Index index(face_descriptor f) const { return index_[f]; }
-
- private:
-  std::vector<face_descriptor> faces_;
-  std::vector<edge_descriptor> edges_;
-  internal::Descriptor_index<face_descriptor> index_;
-};
-
-namespace internal {
-
 /// Iterates over the arcs that leave a face.
 class Arc_iterator
     : public boost::iterator_facade<Arc_iterator, Dual_graph::Arc, boost::forward_traversal_tag, Dual_graph::Arc> {
@@ -298,9 +174,6 @@ struct graph_traits<RW_segmentation::Dual_graph> {
   using degree_size_type = std::size_t;
   static vertex_descriptor null_vertex() { return std::numeric_limits<vertex_descriptor>::max(); }
 };
-
-template <class FaceListGraph>
-struct graph_traits<RW_segmentation::Mesh_dual_graph<FaceListGraph>> : graph_traits<RW_segmentation::Dual_graph> {};
 
 template <>
 struct property_map<RW_segmentation::Dual_graph, vertex_index_t> {

@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_EIGEN_WALK_SOLVER_H
 #define RW_SEGMENTATION_EIGEN_WALK_SOLVER_H
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/mesh/Components.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
@@ -16,9 +19,24 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace RW_segmentation {
+
+namespace internal {
+
+/// Whether one of Eigen's solvers reads the lower triangle of a matrix and no other; those that do not say count as such.
+template <class EigenSolver, class = void>
+struct Works_on_lower_triangle : std::true_type {};
+template <class EigenSolver>
+struct Works_on_lower_triangle<EigenSolver, std::void_t<decltype(EigenSolver::UpLo)>>
+    : std::bool_constant<int(EigenSolver::UpLo) == int(Eigen::Lower)> {};
+
+template <class EigenSolver>
+constexpr bool works_on_lower_triangle = Works_on_lower_triangle<EigenSolver>::value;
+
+}  // namespace internal
 
 /// Solves the walk with any of Eigen's sparse solvers for symmetric positive definite matrices, a model of `WalkSolver`.
 ///
@@ -26,20 +44,38 @@ namespace RW_segmentation {
 /// restricted to them, its lower triangle.
 ///
 /// Subtractions make these solvers lose digits where conductances differ by many orders of magnitude, and neither a
-/// residual nor `info()` tells (method of the manual, "Choosing a solver"). So each solve carries one more right
+/// residual nor `info()` tells (see \ref own_policies, "A solver"). So each solve carries one more right
 /// hand side whose solution is known: with boundary values of 1 everywhere all potentials are 1. When that column, or
 /// the range [0, 1] of the others, is missed by more than `accepted_error`, the solve is refused.
+///
+/// A copy is a fresh solver with the same accepted error; what was set in the solver inside stays behind. A function object
+/// that returns a solver gives each of them its settings.
 ///
 /// \tparam EigenSolver a class with Eigen's `compute`, `solve` and `info` on `Eigen::SparseMatrix<double>`, lower triangle:
 /// `Eigen::SimplicialLDLT<...>`, `Eigen::CholmodSupernodalLLT<...>`, `Eigen::ConjugateGradient<...>`
 template <class EigenSolver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>>
 class Eigen_walk_solver {
+  static_assert(internal::works_on_lower_triangle<EigenSolver>,
+                "Eigen_walk_solver fills the lower triangle of the matrix: the solver needs Eigen::Lower, as "
+                "Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> has it.");
+
  public:
   /// Numbers faces and edges.
   using Index = Dual_graph::Index;
 
   /// \param accepted_error absolute, of a potential; a solve that is worse throws
   explicit Eigen_walk_solver(double accepted_error = 1e-6) : accepted_error_(accepted_error) {}
+  /// Takes another solver with all that it has computed.
+  Eigen_walk_solver(Eigen_walk_solver&&) noexcept = default;
+  /// Takes another solver with all that it has computed.
+  Eigen_walk_solver& operator=(Eigen_walk_solver&&) noexcept = default;
+  /// A fresh solver with the same accepted error.
+  Eigen_walk_solver(const Eigen_walk_solver& other) : Eigen_walk_solver(other.accepted_error_) {}
+  /// Becomes a fresh solver with the same accepted error.
+  Eigen_walk_solver& operator=(const Eigen_walk_solver& other) {
+    if (this != &other) *this = Eigen_walk_solver(other);
+    return *this;
+  }
 
   /// The solver inside, to set what it offers (tolerances, iterations).
   EigenSolver& eigen_solver() { return *solver_; }
@@ -131,22 +167,16 @@ void Eigen_walk_solver<EigenSolver>::factorize(const std::vector<double>& conduc
 /// Numbers the faces from which a walk can be absorbed and that do not absorb themselves.
 template <class EigenSolver>
 void Eigen_walk_solver<EigenSolver>::number_unknowns() {
-  row_.assign(graph_->number_of_faces(), none);
-  std::vector<Index> open = absorbing_faces_;
-  for (const Index face : open) row_.at(face) = 0;
-  while (!open.empty()) {
-    const Index face = open.back();
-    open.pop_back();
-    for (const auto& [next, edge] : graph_->neighbours(face))
-      if (row_[next] == none && conductances_[edge] > 0) {
-        row_[next] = 0;
-        open.push_back(next);
-      }
-  }
-  for (const Index face : absorbing_faces_) row_[face] = none;
+  const internal::Components component(*graph_, [&](Index edge) { return conductances_[edge] > 0; });
+  std::vector<char> is_reached(component.count, false);
+  for (const Index face : absorbing_faces_) is_reached[component.of.at(face)] = true;
+  std::vector<char> is_unknown(component.of.size());
+  for (std::size_t f = 0; f < is_unknown.size(); ++f) is_unknown[f] = is_reached[component.of[f]];
+  for (const Index face : absorbing_faces_) is_unknown[face] = false;
+  row_.assign(is_unknown.size(), none);
   Index next = 0;
-  for (Index& row : row_)
-    if (row != none) row = next++;
+  for (std::size_t f = 0; f < row_.size(); ++f)
+    if (is_unknown[f]) row_[f] = next++;
 }
 
 template <class EigenSolver>

@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_PARTICLE_SAMPLING_H
 #define RW_SEGMENTATION_PARTICLE_SAMPLING_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
+#include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 
 #include <Eigen/Core>
 
@@ -40,6 +43,10 @@ class Particle_sampling {
   /// w as a fraction of the square root of the total area.
   double normal_weight() const { return start_.normal_weight(); }
 
+  /// As `Farthest_point_sampling`, but about as many as `count`.
+  std::vector<Dual_mesh::Index> operator()(const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& given,
+                                           std::size_t count, const Progress& progress = {}) const;
+
  private:
   Farthest_point_sampling start_;
 };
@@ -55,11 +62,11 @@ namespace internal {
 /// much room it has: if larger than the common radius it splits, if much smaller it dies.
 class Particles {
  public:
-  using Index = Dual_graph::Index;
+  using Index = Dual_mesh::Index;
 
   /// Keeps references to its arguments.
-  Particles(const Dual_graph& graph, const Feature_sensitive_metric& metric)
-      : graph_(graph), metric_(metric), occupied_(graph.number_of_faces(), false) {}
+  Particles(const Dual_mesh& mesh, const Feature_sensitive_metric& metric)
+      : mesh_(mesh), metric_(metric), occupied_(mesh.number_of_faces(), false) {}
 
   /// A particle that stays where it is for good, or one that moves, splits and dies.
   void add(Index face, bool fixed) {
@@ -214,8 +221,8 @@ class Particles {
   bool step_downhill(Particle& p) {
     double least = mutual_energy(p.place, p.radius) * (1 - 1e-9);
     Index best = p.face;
-    for (const auto [next, edge] : graph_.neighbours(p.face)) {
-      if (occupied_[next]) continue;
+    for (const auto [next, edge] : mesh_.graph().neighbours(p.face)) {
+      if (occupied_[next] || mesh_.is_wall(edge)) continue;
       const double there = mutual_energy(metric_.point(next), p.radius);
       if (!(there < least)) continue;
       least = there;
@@ -261,8 +268,9 @@ class Particles {
         next.pop_back();
         changed = true;
       } else if (has_room_for_two(parent) && leads(i, std::greater<>())) {
-        const auto around = graph_.neighbours(parent.face);
-        const auto place = std::find_if(around.begin(), around.end(), [&](auto n) { return !occupied_[n.face]; });
+        const auto around = mesh_.graph().neighbours(parent.face);
+        const auto place = std::find_if(around.begin(), around.end(),
+                                        [&](auto n) { return !occupied_[n.face] && !mesh_.is_wall(n.edge); });
         if (place == around.end()) continue;
         parent.radius /= std::sqrt(2.);
         const double radius = parent.radius;
@@ -275,7 +283,7 @@ class Particles {
     return changed;
   }
 
-  const Dual_graph& graph_;
+  const Dual_mesh& mesh_;
   const Feature_sensitive_metric& metric_;
   std::vector<bool> occupied_;
   std::vector<Particle> particles_;
@@ -284,30 +292,28 @@ class Particles {
   std::vector<std::size_t> neighbours_;
 };
 
-/// The core of `feature_sensitive_seeds()`: particles that start from farthest-point sampling.
-inline std::vector<Dual_graph::Index> feature_sensitive_seeds(const Dual_graph& graph, const Face_geometry& geometry,
-                                                              const std::vector<Eigen::Vector3d>& normals,
-                                                              const std::vector<Dual_graph::Index>& given,
-                                                              std::size_t count, const Particle_sampling& sampling,
-                                                              const Progress& progress) {
-  const Feature_sensitive_metric metric(geometry, normals, sampling.normal_weight());
-  std::vector<Dual_graph::Index> start = farthest_faces(graph, geometry, metric, given, count, progress.part(0, 0.1));
+}  // namespace internal
+
+inline std::vector<Dual_mesh::Index> Particle_sampling::operator()(const Dual_mesh& mesh,
+                                                                   const std::vector<Dual_mesh::Index>& given,
+                                                                   std::size_t count, const Progress& progress) const {
+  std::vector<Dual_mesh::Index> start = start_(mesh, given, count, progress.part(0, 0.1));
   if (start.size() + given.size() < 2) return start;
-  Particles particles(graph, metric);
+  const internal::Feature_sensitive_metric metric(mesh, normal_weight());
+  internal::Particles particles(mesh, metric);
   for (const auto face : given) particles.add(face, true);
   for (const auto face : start) particles.add(face, false);
   particles.settle(count, progress.part(0.1, 1));
 
-  std::vector<Dual_graph::Index> seeds = particles.faces_of_movable();
-  Distances_to_sources distance(graph, metric.edge_lengths(graph));
+  std::vector<Dual_mesh::Index> seeds = particles.faces_of_movable();
+  internal::Distances_to_sources distance(mesh.graph(), metric.edge_lengths());
   for (const auto face : given) distance.add_source(face);
   for (const auto face : seeds) distance.add_source(face);
-  const auto out_of_reach = reach_all_components(distance);  // where the last particle died
+  const auto out_of_reach = internal::reach_all_components(distance);  // where the last particle died
   seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());
   return seeds;
 }
 
-}  // namespace internal
 }  // namespace RW_segmentation
 
 #endif

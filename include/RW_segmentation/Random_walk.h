@@ -1,24 +1,25 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_RANDOM_WALK_H
 #define RW_SEGMENTATION_RANDOM_WALK_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
-#include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Graph_walk.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/walk/Graph_walk.h>
+#include <RW_segmentation/internal/walk/make_solver.h>
+#include <RW_segmentation/internal/walk/read_conductances.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,8 @@ namespace RW_segmentation {
 ///   the neighbouring label with the largest potential along their border and are counted in `report()`;
 ///   `write_raw_labels()` has them as they were.
 ///
+/// - Constrained edges are walls, over which no walk steps.
+///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`; it must outlive the walk and keep its faces and edges
 /// \tparam Solver a model of `WalkSolver`: `Star_mesh_elimination` (the default, exact for every range of conductances) or
 /// `Eigen_walk_solver<S>`
@@ -52,6 +55,10 @@ namespace RW_segmentation {
 /// factorises anew by itself.
 template <class FaceListGraph, class Solver = Star_mesh_elimination>
 class Random_walk {
+  static_assert(internal::is_walk_solver<Solver>,
+                "The third argument of Random_walk is a solver, a model of WalkSolver such as Star_mesh_elimination or "
+                "Eigen_walk_solver, or a sequence of named parameters.");
+
  public:
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
   /// What the user calls a segment.
@@ -59,33 +66,52 @@ class Random_walk {
 
   /// Reads the mesh and the conductances; solves nothing yet.
   ///
-  /// \tparam ConductanceMap a model of `ReadablePropertyMap` with the mesh's edge descriptor as key and values that
-  /// convert to `double`: `Conductance`, a stored map, a lambda in `boost::function_property_map`. Read once for each
+  /// \tparam Mesh `FaceListGraph`, or a `Dual_mesh_of` one, which is not read again
+  /// \tparam ConductanceMap `Conductance`, or what `as_conductance()` makes of a map of one's own. Read once for each
   /// interior edge.
-  /// \param np named parameters, among them
+  /// \tparam NamedParameters a sequence of CGAL's named parameters
+  /// \param mesh the mesh
+  /// \param conductance how easily walks cross its edges
+  /// \param solver solves the walk
+  /// \param np
   /// - `callback`: `std::function<bool(double)>`, told the progress of a long solve; `false` ends it with `Cancelled`.
-  /// \throws std::invalid_argument if a conductance is negative or not finite
+  /// - `edge_is_constrained_map` (default: no edge is): the walls.
+  /// - `vertex_point_map` (default: that of the mesh): tells degenerate faces, see `report()`.
+  /// \throws std::invalid_argument if a conductance is negative or not finite, or a coordinate is not finite
   /// \throws std::length_error if the mesh has 2^32 - 1 faces or more
-  template <class ConductanceMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
-  Random_walk(const FaceListGraph& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
+  template <class Mesh, class ConductanceMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+  Random_walk(const Mesh& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
               const NamedParameters& np = CGAL::parameters::default_values())
-      : mesh_(&mesh),
-        graph_(std::make_unique<Mesh_dual_graph<FaceListGraph>>(mesh)),
-        walk_(*graph_, renumber_and_read(*graph_, conductance), std::move(solver), internal::progress_of(np)),
-        faces_at_start_(num_faces(mesh)),
-        edges_at_start_(num_edges(mesh)) {}
+      : mesh_(internal::dual_mesh(mesh, np)),
+        walk_(mesh_.graph(), internal::read_conductances(mesh_, conductance), std::move(solver),
+              internal::progress_of(np)),
+        faces_at_start_(num_faces(mesh_.mesh())),
+        edges_at_start_(num_edges(mesh_.mesh())) {
+    static_assert(internal::has_conductances<ConductanceMap>,
+                  "Random_walk needs conductances: Conductance(mesh, difference), or as_conductance(map) for values of "
+                  "your own.");
+    static_assert(
+        internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+        "Random_walk takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  }
+
+  /// As above, with the default solver.
+  template <class Mesh, class ConductanceMap, class T, class Tag, class Base>
+  Random_walk(const Mesh& mesh, const ConductanceMap& conductance,
+              const CGAL::Named_function_parameters<T, Tag, Base>& np)
+      : Random_walk(mesh, conductance, Solver(), np) {}
 
   /// Whether it is a face of the mesh as it was when the walk was made.
-  bool has_face(face_descriptor face) const { return graph_->index(face) != Mesh_dual_graph<FaceListGraph>::none; }
+  bool has_face(face_descriptor face) const { return mesh_.index(face) != mesh_.none; }
 
   /// Makes a face a seed, or gives a seed another label.
   /// \throws std::invalid_argument if it is not a face of the mesh
-  void add_seed(face_descriptor face, Label label) { walk_.add_seed(index(face), label); }
+  void add_seed(face_descriptor face, Label label) { walk_.add_seed(index(face, "seed"), label); }
 
   /// Makes a face an ordinary one again.
   /// \returns whether it was a seed
   /// \throws std::invalid_argument if it is not a face of the mesh
-  bool remove_seed(face_descriptor face) { return walk_.remove_seed(index(face)); }
+  bool remove_seed(face_descriptor face) { return walk_.remove_seed(index(face, "seed")); }
 
   /// Makes all faces ordinary ones.
   void clear_seeds() { walk_.clear_seeds(); }
@@ -93,12 +119,12 @@ class Random_walk {
   /// The seeds and their labels in the order in which they were added.
   std::vector<std::pair<face_descriptor, Label>> seeds() const {
     std::vector<std::pair<face_descriptor, Label>> result;
-    for (const auto& seed : walk_.seeds()) result.emplace_back(graph_->face(seed.face), seed.label);
+    for (const auto& seed : walk_.seeds()) result.emplace_back(mesh_.face(seed.face), seed.label);
     return result;
   }
 
   /// The label of a face that is a seed.
-  std::optional<Label> label_of_seed(face_descriptor face) const { return walk_.label_of_seed(index(face)); }
+  std::optional<Label> label_of_seed(face_descriptor face) const { return walk_.label_of_seed(index(face, "seed")); }
 
   /// Writes the label of each face: the user's own labels, and the next unused ones for components without a seed.
   ///
@@ -128,7 +154,7 @@ class Random_walk {
   /// other numbers of faces or edges only
   double probability(face_descriptor face, Label label) {
     check_counts();
-    return walk_.potential(index(face), label);
+    return walk_.potential(index(face, "face"), label);
   }
 
   /// Writes the probability of a label for all faces.
@@ -136,32 +162,24 @@ class Random_walk {
   /// \throws as `segment()`
   template <class ProbabilityMap>
   void write_probabilities(Label label, ProbabilityMap probabilities) {
+    static_assert(internal::is_writable_map<ProbabilityMap, face_descriptor>,
+                  "probabilities must be a writable property map from the mesh's face_descriptor to double.");
     check_faces();
-    const std::vector<double> potential = walk_.potential(label);
-    for (std::size_t f = 0; f < potential.size(); ++f)
-      put(probabilities, graph_->face(static_cast<Dual_graph::Index>(f)), potential[f]);
+    mesh_.write_faces(walk_.potential(label), probabilities);
   }
 
-  /// What the last answer met that is odd but not wrong.
-  const Walk_report& report() const { return walk_.report(); }
+  /// What the mesh has and the last answer met that is odd but not wrong.
+  Walk_report report() const {
+    Walk_report report = walk_.report();
+    report.degenerate_faces = mesh_.number_of_degenerate_faces();
+    return report;
+  }
 
  private:
-  /// Renumbers the graph for speed; the values are read, and faulty ones told of, in the order of the mesh.
-  template <class ConductanceMap>
-  static std::vector<double> renumber_and_read(Mesh_dual_graph<FaceListGraph>& graph,
-                                               const ConductanceMap& conductance) {
-    const std::vector<double> values = internal::read_edge_values(graph, conductance, "the conductance");
-    for (const double value : values)
-      if (!std::isfinite(value)) throw internal::argument_error("a conductance", value, "finite");
-    std::vector<double> renumbered;
-    renumbered.reserve(values.size());
-    for (const Dual_graph::Index former : graph.renumber_along_surface()) renumbered.push_back(values[former]);
-    return renumbered;
-  }
-
-  Dual_graph::Index index(face_descriptor face) const {
-    if (!has_face(face)) throw std::invalid_argument("the seed is not a face of the mesh");
-    return graph_->index(face);
+  /// \param role what the face is called in the error
+  Dual_mesh::Index index(face_descriptor face, const char* role) const {
+    if (!has_face(face)) throw std::invalid_argument(std::string("the ") + role + " is not a face of the mesh");
+    return mesh_.index(face);
   }
 
   [[noreturn]] static void refuse_changed_mesh() {
@@ -169,18 +187,18 @@ class Random_walk {
   }
 
   void check_counts() const {
-    if (num_faces(*mesh_) != faces_at_start_ || num_edges(*mesh_) != edges_at_start_) refuse_changed_mesh();
+    if (num_faces(mesh_.mesh()) != faces_at_start_ || num_edges(mesh_.mesh()) != edges_at_start_) refuse_changed_mesh();
   }
 
   /// Compares the faces themselves, since some meshes go on counting those that have been removed.
   void check_faces() const {
     check_counts();
     std::size_t number = 0;
-    for (const face_descriptor face : faces(*mesh_)) {
+    for (const face_descriptor face : faces(mesh_.mesh())) {
       if (!has_face(face)) refuse_changed_mesh();
       ++number;
     }
-    if (number != graph_->number_of_faces()) refuse_changed_mesh();
+    if (number != mesh_.number_of_faces()) refuse_changed_mesh();
   }
 
   template <class SegmentIdMap>
@@ -191,16 +209,22 @@ class Random_walk {
     std::map<Label, std::size_t> distinct;
     for (std::size_t f = 0; f < labels.size(); ++f) {
       if (f == 0 || labels[f] != labels[f - 1]) distinct[labels[f]] = f;
-      put(segment_ids, graph_->face(static_cast<Dual_graph::Index>(f)), static_cast<Id>(labels[f]));
+      put(segment_ids, mesh_.face(static_cast<Dual_mesh::Index>(f)), static_cast<Id>(labels[f]));
     }
     return distinct.size();
   }
 
-  const FaceListGraph* mesh_;
-  std::unique_ptr<Mesh_dual_graph<FaceListGraph>> graph_;  // stays where the walk refers to it
+  Dual_mesh_of<FaceListGraph> mesh_;  // its graph stays where the walk refers to it
   internal::Graph_walk<Solver> walk_;
   std::size_t faces_at_start_, edges_at_start_;
 };
+
+/// The type of mesh, and the solver unless named parameters stand in its place.
+template <class Mesh, class ConductanceMap, class Third = Star_mesh_elimination,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+Random_walk(const Mesh&, const ConductanceMap&, const Third& = Third(), const NamedParameters& = NamedParameters())
+    -> Random_walk<typename internal::Mesh_type<Mesh>::type,
+                   std::conditional_t<internal::is_named_parameters<Third>, Star_mesh_elimination, Third>>;
 
 /// Segments a mesh by the walk from given seeds, once.
 ///
@@ -209,7 +233,7 @@ class Random_walk {
 /// label; several faces may share a label
 /// \param segment_ids output, contiguous ids from 0: the labels in ascending order, then the components without a seed.
 /// It may be the map that the seeds were taken from.
-/// \param np `callback` as for `Random_walk`
+/// \param np as for `Random_walk`
 /// \returns the number of segments
 /// \throws std::invalid_argument if there are no seeds, a seed is not a face of the mesh, or a face is given two labels
 /// \throws std::runtime_error if the solver fails
@@ -221,6 +245,12 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
                                     const SeedRange& seeds, SegmentIdMap segment_ids,
                                     const NamedParameters& np = CGAL::parameters::default_values()) {
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  static_assert(
+      internal::has_conductances<ConductanceMap>,
+      "segmentation_from_seeds() needs conductances: Conductance(mesh, difference), or as_conductance(map) for "
+      "values of your own.");
+  static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
+                "segment_ids must be a writable property map from the mesh's face_descriptor to an integer.");
   const auto labelled_face = [](const auto& seed, std::size_t place) {
     if constexpr (std::is_convertible_v<decltype(seed), face_descriptor>)
       return std::pair<face_descriptor, std::size_t>(seed, place);
@@ -236,7 +266,7 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
   std::size_t ids = 0;
   for (auto& entry : id_of_label) entry.second = ids++;
 
-  Random_walk<FaceListGraph, Solver> walk(mesh, conductance, Solver(), np);
+  Random_walk<typename internal::Mesh_type<FaceListGraph>::type, Solver> walk(mesh, conductance, Solver(), np);
   for (std::size_t s = 0; s < labelled.size(); ++s) {
     const auto& [face, label] = labelled[s];
     if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");

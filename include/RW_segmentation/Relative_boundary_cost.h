@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_RELATIVE_BOUNDARY_COST_H
 #define RW_SEGMENTATION_RELATIVE_BOUNDARY_COST_H
 
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Region_boundary.h>
 
 namespace RW_segmentation {
@@ -16,10 +19,7 @@ class Relative_boundary_cost {
   struct Region {};
 
   /// The region of a single face.
-  template <class FaceDescriptor>
-  Region region(const FaceDescriptor&) const {
-    return {};
-  }
+  Region region(const Dual_mesh&, Dual_mesh::Index) const { return {}; }
   /// Does nothing.
   void join(Region&, const Region&) const {}
 

@@ -1,135 +1,19 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_SEGMENT_HIERARCHY_H
 #define RW_SEGMENTATION_SEGMENT_HIERARCHY_H
 
-#include <RW_segmentation/Dual_graph.h>
-#include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
+#include <RW_segmentation/Merge_tree.h>
+#include <RW_segmentation/internal/property_maps.h>
 
 #include <boost/graph/graph_traits.hpp>
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <numeric>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace RW_segmentation {
-
-/// A sequence of merges, from fragments to one segment for each connected component.
-///
-/// Regions are numbered: first the fragments, 0 .. `number_of_fragments()` - 1, then each region that a merge makes.
-class Merge_tree {
- public:
-  /// Two regions that become one.
-  struct Merge {
-    std::size_t first;   ///< a region
-    std::size_t second;  ///< the other region, of a higher number
-    double cost;         ///< of this merge; costs need not rise from merge to merge
-  };
-
-  Merge_tree() = default;
-
-  /// \param merges in their order; merge i makes region `number_of_fragments` + i
-  Merge_tree(std::size_t number_of_fragments, std::vector<Merge> merges)
-      : number_of_fragments_(number_of_fragments), merges_(std::move(merges)) {}
-
-  /// Regions before the first merge.
-  std::size_t number_of_fragments() const { return number_of_fragments_; }
-  /// Regions after the last merge.
-  std::size_t number_of_components() const { return number_of_fragments_ - merges_.size(); }
-  /// All merges in their order.
-  const std::vector<Merge>& merges() const { return merges_; }
-
-  /// The segment of each fragment when merging stops at a number of segments. Segments are numbered from 0 in the
-  /// order of their lowest fragments. Levels are nested: each segment is a union of segments of any level with more.
-  /// Complexity: linear in the number of fragments.
-  /// \throws std::invalid_argument if there are more components or fewer fragments than `number_of_segments`
-  std::vector<std::size_t> segment_of_fragments(std::size_t number_of_segments) const {
-    if (number_of_segments < number_of_components() || number_of_segments > number_of_fragments()) {
-      const std::string range = "from " + std::to_string(number_of_components()) + " (connected components) to " +
-                                std::to_string(number_of_fragments()) + " (fragments)";
-      throw internal::argument_error("the number of segments", number_of_segments, range.c_str());
-    }
-    std::vector<std::size_t> root(2 * number_of_fragments() - number_of_segments);
-    std::iota(root.begin(), root.end(), std::size_t(0));
-    for (std::size_t region = root.size(); region-- > number_of_fragments();) {
-      const Merge& merge = merges_[region - number_of_fragments()];
-      root[merge.first] = root[merge.second] = root[region];
-    }
-
-    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> segment_of_root(root.size(), none), segment(number_of_fragments());
-    std::size_t segments = 0;
-    for (std::size_t fragment = 0; fragment < segment.size(); ++fragment) {
-      std::size_t& id = segment_of_root[root[fragment]];
-      if (id == none) id = segments++;
-      segment[fragment] = id;
-    }
-    return segment;
-  }
-
- private:
-  std::size_t number_of_fragments_ = 0;
-  std::vector<Merge> merges_;
-};
-
-/// Stops at exactly so many segments; a model of `StopPredicate`.
-class Segment_count_stop {
- public:
-  /// Stops at `number_of_segments`.
-  explicit Segment_count_stop(std::size_t number_of_segments) : number_of_segments_(number_of_segments) {}
-
-  /// That number, whatever the tree.
-  std::size_t operator()(const Merge_tree&) const { return number_of_segments_; }
-
- private:
-  std::size_t number_of_segments_;
-};
-
-/// Stops before the first merge that costs more than a threshold; a model of `StopPredicate`.
-class Cost_threshold_stop {
- public:
-  /// \param threshold the largest cost of a merge
-  explicit Cost_threshold_stop(double threshold) : threshold_(threshold) {}
-
-  /// The number of segments to stop at.
-  std::size_t operator()(const Merge_tree& tree) const {
-    std::size_t segments = tree.number_of_fragments();
-    for (const Merge_tree::Merge& merge : tree.merges()) {
-      if (merge.cost > threshold_) break;
-      --segments;
-    }
-    return segments;
-  }
-
- private:
-  double threshold_;
-};
-
-/// Stops before the first merge that costs significantly more than every merge before it; a model of `StopPredicate`.
-class Cost_jump_stop {
- public:
-  /// \param increase the least rise of the cost above the highest one so far that counts as a jump
-  explicit Cost_jump_stop(double increase) : increase_(increase) {}
-
-  /// The number of segments to stop at.
-  std::size_t operator()(const Merge_tree& tree) const {
-    std::size_t segments = tree.number_of_fragments();
-    double highest = std::numeric_limits<double>::infinity();  // the first merge has none to jump from
-    for (const Merge_tree::Merge& merge : tree.merges()) {
-      if (merge.cost - highest >= increase_) break;
-      highest = segments == tree.number_of_fragments() ? merge.cost : std::max(highest, merge.cost);
-      --segments;
-    }
-    return segments;
-  }
-
- private:
-  double increase_;
-};
 
 /// All levels of a segmentation, from the fragments it was made of to one segment for each connected component.
 ///
@@ -162,6 +46,9 @@ class Segment_hierarchy : public Merge_tree {
   std::size_t segments(const StopPredicate& stop, SegmentIdMap segment_ids) const {
     static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                   "segment_ids must be a writable property map from the mesh's face_descriptor to std::size_t.");
+    static_assert(std::is_invocable_r_v<std::size_t, const StopPredicate&, const Merge_tree&>,
+                  "stop must be a function from Merge_tree to the number of segments, such as Segment_count_stop(6) or "
+                  "Cost_threshold_stop(1).");
     const std::size_t number_of_segments = stop(static_cast<const Merge_tree&>(*this));
     const std::vector<std::size_t> segment = segment_of_fragments(number_of_segments);
     for (std::size_t i = 0; i < faces_.size(); ++i) put(segment_ids, faces_[i], segment[fragment_of_face_[i]]);

@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_STAR_MESH_ELIMINATION_H
 #define RW_SEGMENTATION_STAR_MESH_ELIMINATION_H
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/internal/Elimination_plan.h>
-#include <RW_segmentation/internal/front_kernels.h>
 #include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/solver/Elimination_plan.h>
+#include <RW_segmentation/internal/solver/front_kernels.h>
 
 #include <CGAL/tags.h>
 
@@ -46,6 +48,16 @@ class Star_mesh_elimination {
  public:
   /// Numbers faces and edges.
   using Index = Dual_graph::Index;
+
+  Star_mesh_elimination() = default;
+  /// Takes another solver with all that it has computed.
+  Star_mesh_elimination(Star_mesh_elimination&&) = default;
+  /// Takes another solver with all that it has computed.
+  Star_mesh_elimination& operator=(Star_mesh_elimination&&) = default;
+  /// A copy is a fresh solver: it has analysed nothing.
+  Star_mesh_elimination(const Star_mesh_elimination&) : Star_mesh_elimination() {}
+  /// Becomes a fresh solver.
+  Star_mesh_elimination& operator=(const Star_mesh_elimination&) { return *this = Star_mesh_elimination(); }
 
   /// Orders the elimination. Depends on the mesh only.
   /// \throws std::length_error for more faces than the ordering can number (about 2.5e8)

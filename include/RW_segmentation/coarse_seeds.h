@@ -1,28 +1,23 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_COARSE_SEEDS_H
 #define RW_SEGMENTATION_COARSE_SEEDS_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/seeds/Path_lengths.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <Eigen/Core>
 
-#include <boost/graph/dijkstra_shortest_paths.hpp>
-#include <boost/graph/filtered_graph.hpp>
-#include <boost/graph/two_bit_color_map.hpp>
-#include <boost/property_map/function_property_map.hpp>
-#include <boost/property_map/property_map.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -94,208 +89,180 @@ class Separation_decrease_stop {
 
 namespace internal {
 
-/// The lengths of the shortest paths over a dual graph from a growing set of source faces, by Boost's Dijkstra;
-/// infinite where no path leads.
-class Path_lengths {
+/// Coarse seeding as it goes on: farthest-first by the least sum of differences, ties by geodesic distance.
+class Coarse_seeds {
  public:
-  using Index = Dual_graph::Index;
+  using Index = Dual_mesh::Index;
 
-  /// Keeps references to both arguments. `edge_length` is in the order of the edges, none is negative.
-  Path_lengths(const Dual_graph& graph, const std::vector<double>& edge_length)
-      : graph_(graph),
-        edge_length_(edge_length),
-        length_(graph.number_of_faces(), std::numeric_limits<double>::infinity()),
-        colour_(graph.number_of_faces()) {}
+  /// Keeps references to the mesh and the differences, which are in the order of the edges.
+  Coarse_seeds(const Dual_mesh& mesh, const std::vector<double>& differences)
+      : mesh_(mesh),
+        mean_(mean_difference(differences)),
+        step_difference_(differences),
+        step_length_(centroid_distances(mesh)),
+        difference_(mesh.graph(), step_difference_),
+        distance_(mesh.graph(), step_length_) {
+    for (Index e = 0; e < mesh.number_of_edges(); ++e)
+      if (mesh.is_wall(e)) step_difference_[e] = std::numeric_limits<double>::infinity();
+  }
 
-  double operator()(Index face) const { return length_[face]; }
-
-  /// Adds all sources in one run, which sees only those arcs that shorten a path: it visits the faces that come closer
-  /// and their neighbours, no others.
-  void add_sources(const std::vector<Index>& sources) {
-    for (const Index source : sources) length_[source] = 0;
-    const boost::filtered_graph shortening(graph_, Shortens{edge_length_.data(), length_.data()});
-    const auto length_of_arc = boost::make_function_property_map<Dual_graph::Arc>(
-        [this](const Dual_graph::Arc& arc) { return edge_length_[arc.edge]; });
-    const auto length_of_path = boost::make_iterator_property_map(length_.begin(), index_);
-    boost::dijkstra_shortest_paths_no_init(shortening, sources.begin(), sources.end(), boost::dummy_property_map(),
-                                           length_of_path, length_of_arc, index_, std::less<double>(),
-                                           std::plus<double>(), 0., Whiten{colour_}, colour_);
+  /// Finds the seeds that are added to the `given` ones.
+  template <class SeedStopPredicate>
+  std::vector<Index> operator()(const std::vector<Index>& given, const SeedStopPredicate& stop,
+                                const Progress& progress) {
+    seeds_ = given;
+    const std::vector<Index> first = first_seeds(given);
+    seeds_.insert(seeds_.end(), first.begin(), first.end());
+    std::vector<double> separation;
+    while (separation.size() < seeds_.size()) {
+      separation.push_back(std::numeric_limits<double>::infinity());
+      if (stop(separation))
+        throw argument_error("the number of seeds at which stop ends", separation.size() - 1,
+                             ("at least " + std::to_string(seeds_.size()) + ", one for each component").c_str());
+    }
+    difference_.add_sources(seeds_);
+    const double unit = mean_ * std::sqrt(static_cast<double>(mesh_.number_of_faces()));
+    while (seeds_.size() < mesh_.number_of_faces()) {
+      progress(1 - 1 / static_cast<double>(seeds_.size()));
+      const Index next = most_separated();
+      separation.push_back(difference_[next] > 0 ? difference_[next] / unit : 0);
+      if (stop(separation)) return added(given);
+      seeds_.push_back(next);
+      difference_.add_sources({next});
+    }
+    separation.push_back(0);
+    if (!seeds_.empty() && !stop(separation))
+      throw argument_error("the number of seeds at which stop ends", "larger",
+                           ("at most " + std::to_string(seeds_.size()) + ", the number of faces").c_str());
+    return added(given);
   }
 
  private:
-  using Index_map = boost::typed_identity_property_map<Index>;
-  using Colour_map = boost::two_bit_color_map<Index_map>;
+  /// In units of the mean difference, and of the bounding box's diagonal for distances: above the rounding of sums, far
+  /// below what tells two places on a mesh apart.
+  static constexpr double rounding = 1e-9;
 
-  struct Shortens {
-    const double *edge_length, *length;
-    bool operator()(const Dual_graph::Arc& arc) const {
-      return length[arc.source] + edge_length[arc.edge] < length[arc.target];
+  /// The mean of those differences that are finite.
+  static double mean_difference(const std::vector<double>& differences) {
+    double mean = 0;
+    for (const double d : differences)
+      if (std::isfinite(d)) mean += d / static_cast<double>(differences.size());
+    return mean;
+  }
+
+  /// The distances between the centroids of neighbouring faces: geodesic distance is the length of a path over them.
+  static std::vector<double> centroid_distances(const Dual_mesh& mesh) {
+    std::vector<double> distance;
+    distance.reserve(mesh.number_of_edges());
+    for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+      const auto [f, g] = mesh.graph().faces_of(e);
+      distance.push_back(mesh.is_wall(e) ? std::numeric_limits<double>::infinity()
+                                         : (mesh.centroid(f) - mesh.centroid(g)).norm());
     }
+    return distance;
+  }
+
+  /// The faces of a range with the greatest value but for rounding errors, in their order. Taking them for equal makes
+  /// the seeds of a symmetric mesh the same in every position.
+  template <class Faces, class Value>
+  static std::vector<Index> with_greatest(const Faces& faces, const Value& value, double rounding_error) {
+    double greatest = -std::numeric_limits<double>::infinity();
+    for (const Index f : faces) greatest = std::max(greatest, value(f));
+    std::vector<Index> result;
+    for (const Index f : faces)
+      if (value(f) >= greatest - rounding_error) result.push_back(f);
+    return result;
+  }
+
+  /// The face of a component that is closest to the component's centroid, every point of the surface counting alike.
+  Index face_closest_to_centroid(const std::vector<Index>& component) const {
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (const Index f : component) {
+      moment += mesh_.area(f) * mesh_.centroid(f);
+      area += mesh_.area(f);
+    }
+    if (!(area > 0)) return component.front();
+    const Eigen::Vector3d centroid = moment / area;
+    const auto closeness = [&](Index f) { return -(mesh_.centroid(f) - centroid).norm(); };
+    return with_greatest(component, closeness, rounding).front();
+  }
+
+  /// The first seed of each component that has none: the face geodesically farthest from the face closest to the centroid.
+  std::vector<Index> first_seeds(const std::vector<Index>& given) const {
+    const Components components(mesh_.graph(), [&](Index e) { return !mesh_.is_wall(e); });
+    std::vector<std::vector<Index>> faces(components.count);
+    for (Index f = 0; f < mesh_.number_of_faces(); ++f) faces[components.of[f]].push_back(f);
+    for (const Index seed : given) faces[components.of[seed]].clear();
+    faces.erase(std::remove_if(faces.begin(), faces.end(), [](const auto& list) { return list.empty(); }), faces.end());
+
+    std::vector<Index> seeds;
+    for (const auto& component : faces) seeds.push_back(face_closest_to_centroid(component));
+    Path_lengths from_centre(mesh_.graph(), step_length_);
+    from_centre.add_sources(seeds);
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      seeds[i] = with_greatest(
+                     faces[i], [&](Index f) { return from_centre[f]; }, rounding)
+                     .front();
+    return seeds;
+  }
+
+  Index most_separated() {
+    const auto greatest = with_greatest(
+        Numbers{static_cast<Index>(mesh_.number_of_faces())}, [&](Index f) { return difference_[f]; },
+        rounding * mean_);
+    if (greatest.size() == 1) return greatest.front();
+    distance_.add_sources({seeds_.begin() + static_cast<std::ptrdiff_t>(seeds_in_distance_), seeds_.end()});
+    seeds_in_distance_ = seeds_.size();
+    return with_greatest(
+               greatest, [&](Index f) { return difference_[f] < 0 ? -1 : distance_[f]; }, rounding)
+        .front();
+  }
+
+  std::vector<Index> added(const std::vector<Index>& given) const {
+    return {seeds_.begin() + static_cast<std::ptrdiff_t>(given.size()), seeds_.end()};
+  }
+
+  /// All numbers of faces.
+  struct Numbers {
+    Index count;
+    boost::counting_iterator<Index> begin() const { return boost::counting_iterator<Index>(0); }
+    boost::counting_iterator<Index> end() const { return boost::counting_iterator<Index>(count); }
   };
 
-  /// Leaves the colours as the next run wants them. No arc shortens the path to a finished face.
-  struct Whiten : boost::dijkstra_visitor<> {
-    Colour_map colour;
-    explicit Whiten(const Colour_map& map) : colour(map) {}
-    template <class Graph>
-    void finish_vertex(Index face, const Graph&) {
-      put(colour, face, boost::two_bit_white);
-    }
-  };
-
-  const Dual_graph& graph_;
-  const std::vector<double>& edge_length_;
-  std::vector<double> length_;
-  Index_map index_;
-  Colour_map colour_;
+  const Dual_mesh& mesh_;
+  double mean_;
+  std::vector<double> step_difference_, step_length_;  // by edge, infinite over walls
+  Path_lengths difference_, distance_;  // to the nearest seed, the latter brought up to date where it decides
+  std::size_t seeds_in_distance_ = 0;
+  std::vector<Index> seeds_;
 };
 
-/// The distances between the centroids of neighbouring faces, in the order of the edges: geodesic distance is the
-/// length of a path over centroids.
-inline std::vector<double> centroid_distances(const Dual_graph& graph, const Face_geometry& geometry) {
-  std::vector<double> distance;
-  distance.reserve(graph.number_of_edges());
-  for (std::size_t e = 0; e < graph.number_of_edges(); ++e) {
-    const auto [f, g] = graph.faces_of(static_cast<Dual_graph::Index>(e));
-    distance.push_back((geometry.centroid[f] - geometry.centroid[g]).norm());
-  }
-  return distance;
-}
-
-/// The faces of each connected component in ascending order, the components in the order of their lowest faces.
-inline std::vector<std::vector<Dual_graph::Index>> faces_of_components(const Dual_graph& graph) {
-  std::vector<std::vector<Dual_graph::Index>> components;
-  std::vector<bool> reached(graph.number_of_faces(), false);
-  for (std::size_t f = 0; f < graph.number_of_faces(); ++f) {
-    if (reached[f]) continue;
-    reached[f] = true;
-    std::vector<Dual_graph::Index> component = {static_cast<Dual_graph::Index>(f)};
-    for (std::size_t i = 0; i < component.size(); ++i)
-      for (const auto [g, edge] : graph.neighbours(component[i])) {
-        if (reached[g]) continue;
-        reached[g] = true;
-        component.push_back(g);
-      }
-    std::sort(component.begin(), component.end());
-    components.push_back(std::move(component));
-  }
-  return components;
-}
-
-/// In units of the mean difference, and of the bounding box's diagonal for distances: above the rounding of sums, far
-/// below what tells two places on a mesh apart.
-constexpr double rounding = 1e-9;
-
-/// The faces with the greatest value but for rounding errors, in their order. Taking them for equal makes the seeds of a
-/// symmetric mesh the same in every position.
-template <class Value>
-std::vector<Dual_graph::Index> with_greatest(const std::vector<Dual_graph::Index>& faces, const Value& value,
-                                             double rounding_error) {
-  double greatest = -std::numeric_limits<double>::infinity();
-  for (const auto f : faces) greatest = std::max(greatest, value(f));
-  std::vector<Dual_graph::Index> result;
-  for (const auto f : faces)
-    if (value(f) >= greatest - rounding_error) result.push_back(f);
-  return result;
-}
-
-/// The face of a component that is closest to the component's centroid, every point of the surface counting alike.
-inline Dual_graph::Index face_closest_to_centroid(const std::vector<Dual_graph::Index>& component,
-                                                  const Face_geometry& geometry) {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double area = 0;
-  for (const auto f : component) {
-    moment += geometry.area[f] * geometry.centroid[f];
-    area += geometry.area[f];
-  }
-  if (!(area > 0)) return component.front();
-  const Eigen::Vector3d centroid = moment / area;
-  const auto closeness = [&](auto f) { return -(geometry.centroid[f] - centroid).norm(); };
-  return with_greatest(component, closeness, rounding).front();
-}
-
-/// The first seed of each component: the face geodesically farthest from the face closest to the centroid.
-inline std::vector<Dual_graph::Index> first_seeds(const Dual_graph& graph, const Face_geometry& geometry,
-                                                  const std::vector<double>& centroid_distance) {
-  const auto components = faces_of_components(graph);
-  std::vector<Dual_graph::Index> seeds;
-  for (const auto& component : components) seeds.push_back(face_closest_to_centroid(component, geometry));
-  Path_lengths from_centre(graph, centroid_distance);
-  from_centre.add_sources(seeds);
-  for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = with_greatest(components[i], from_centre, rounding).front();
-  return seeds;
-}
-
-/// The mean of those differences that are finite.
-inline double mean_difference(const std::vector<double>& differences) {
-  double mean = 0;
-  for (const double d : differences)
-    if (std::isfinite(d)) mean += d / static_cast<double>(differences.size());
-  return mean;
-}
-
-/// The core of `coarse_seeds()`: `differences` are in the order of the edges.
-template <class SeedStopPredicate>
-std::vector<Dual_graph::Index> coarse_seeds(const Dual_graph& graph, const Face_geometry& geometry,
-                                            const std::vector<double>& differences, const SeedStopPredicate& stop,
-                                            const Progress& progress) {
-  using Index = Dual_graph::Index;
-  const std::vector<double> centroid_distance = centroid_distances(graph, geometry);
-  std::vector<Index> seeds = first_seeds(graph, geometry, centroid_distance);
-
-  std::vector<double> separation;
-  while (separation.size() < seeds.size()) {
-    separation.push_back(std::numeric_limits<double>::infinity());
-    if (stop(separation))
-      throw argument_error("the number of seeds at which stop ends", separation.size() - 1,
-                           ("at least " + std::to_string(seeds.size()) + ", one for each component").c_str());
-  }
-
-  Path_lengths difference(graph, differences);  // to the nearest seed
-  std::vector<Index> others(graph.number_of_faces());
-  std::iota(others.begin(), others.end(), Index(0));
-  std::vector<bool> is_seed(graph.number_of_faces(), false);
-  const auto start_paths_at = [&](const std::vector<Index>& faces) {
-    difference.add_sources(faces);
-    for (const Index f : faces) is_seed[f] = true;
-    others.erase(std::remove_if(others.begin(), others.end(), [&](Index f) { return is_seed[f]; }), others.end());
-  };
-
-  Path_lengths distance(graph, centroid_distance);  // to the nearest seed, brought up to date where it decides
-  std::size_t seeds_in_distance = 0;
-  const auto most_distant = [&](const std::vector<Index>& faces) {
-    if (faces.size() == 1) return faces.front();
-    distance.add_sources({seeds.begin() + static_cast<std::ptrdiff_t>(seeds_in_distance), seeds.end()});
-    seeds_in_distance = seeds.size();
-    return with_greatest(faces, distance, rounding).front();
-  };
-
-  start_paths_at(seeds);
-  const double mean = mean_difference(differences);
-  const double unit = mean * std::sqrt(static_cast<double>(graph.number_of_faces()));
-  while (!others.empty()) {
-    progress(1 - 1 / static_cast<double>(seeds.size()));
-    const Index next = most_distant(with_greatest(others, difference, rounding * mean));
-    separation.push_back(difference(next) > 0 ? difference(next) / unit : 0);
-    if (stop(separation)) return seeds;
-    seeds.push_back(next);
-    start_paths_at({next});
-  }
-  separation.push_back(0);
-  if (!seeds.empty() && !stop(separation))
-    throw argument_error("the number of seeds at which stop ends", "larger",
-                         ("at most " + std::to_string(seeds.size()) + ", the number of faces").c_str());
-  return seeds;
-}
-
 }  // namespace internal
+
+/// Few seeds, one for each large structure, a seeding policy: a function object from a dual mesh, the difference of its
+/// edges and the seeds that are given to the seeds that it adds. See `coarse_seeds()`; given seeds count as the first ones.
+///
+/// \tparam SeedStopPredicate a model of `SeedStopPredicate`
+template <class SeedStopPredicate = Separation_threshold_stop>
+struct Coarse_seeding {
+  SeedStopPredicate stop;  ///< when to end
+
+  /// \throws std::invalid_argument as `coarse_seeds()`
+  /// \throws Cancelled
+  std::vector<Dual_mesh::Index> operator()(const Dual_mesh& mesh, const std::vector<double>& difference,
+                                           const std::vector<Dual_mesh::Index>& given,
+                                           const Progress& progress = {}) const {
+    return internal::Coarse_seeds(mesh, difference)(given, stop, progress);
+  }
+};
 
 /// Finds few seeds, one for each large structure of a mesh (section 4.1 of the paper, Eq. 9).
 ///
 /// The first seed is the face geodesically farthest from the face closest to the mesh's centroid. Each further one is
 /// the face with the largest separation: with D(f, g) = the least sum of differences over all paths of faces from f to
 /// g, the face that maximises min D(f, s) over the seeds s so far. Of faces equally separated, as on a flat mesh, it is
-/// the one at the largest geodesic distance from the seeds, then the one that comes first in `faces(mesh)`. Geodesic
+/// the one at the largest geodesic distance from the seeds, then the one that `Dual_mesh` numbers lowest. Geodesic
 /// distance is the length of a path over the centroids of faces. It ends where `stop` finds the last separation too
 /// small; that candidate is no seed.
 ///
@@ -320,7 +287,7 @@ std::vector<Dual_graph::Index> coarse_seeds(const Dual_graph& graph, const Face_
 /// \param difference how much the two faces beside an edge differ
 /// \param stop when to end
 /// \param seeds output, the seeds in the order in which they were found
-/// \param np `vertex_point_map` (default: that of the mesh), `callback` (`std::function<bool(double)>`, `false` cancels)
+/// \param np `vertex_point_map` (default: that of the mesh), `edge_is_constrained_map` (default: no edge is), `callback` (`std::function<bool(double)>`, `false` cancels)
 /// \returns `seeds` after the last seed written
 /// \throws std::invalid_argument if `stop` ends before each component has a seed or when all faces are seeds, if a
 /// difference is negative or NaN, or a coordinate is not finite; nothing is written then
@@ -334,11 +301,13 @@ OutputIterator coarse_seeds(const FaceListGraph& mesh, const Difference& differe
                             OutputIterator seeds, const NamedParameters& np = CGAL::parameters::default_values()) {
   static_assert(std::is_invocable_r_v<bool, const SeedStopPredicate&, const std::vector<double>&>,
                 "stop must be a function from std::vector<double>, the separations of the seeds, to bool.");
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-  const std::vector<double> differences = internal::read_edge_values(graph, difference, "difference");
-  for (const auto f : internal::coarse_seeds(graph, geometry, differences, stop, internal::progress_of(np)))
-    *seeds++ = graph.face(f);
+  static_assert(
+      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      "coarse_seeds() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  const auto& dual = internal::dual_mesh(mesh, np);
+  const Coarse_seeding<SeedStopPredicate> seeding{stop};
+  for (const auto f : seeding(dual, dual.read_edges(difference, "difference"), {}, internal::progress_of(np)))
+    *seeds++ = dual.face(f);
   return seeds;
 }
 

@@ -1,15 +1,17 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_INTEGRAL_INVARIANT_CURVATURES_H
 #define RW_SEGMENTATION_INTEGRAL_INVARIANT_CURVATURES_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Ball_moments.h>
-#include <RW_segmentation/internal/Ball_neighbourhood.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
-#include <RW_segmentation/internal/Triangulated_faces.h>
+#include <RW_segmentation/internal/curvature/Ball_moments.h>
+#include <RW_segmentation/internal/curvature/Ball_neighbourhood.h>
+#include <RW_segmentation/internal/curvature/Triangulated_faces.h>
+#include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>
@@ -82,7 +84,7 @@ namespace internal {
 /// Eigenvalues M1, M2 of the covariance, along the surface, are to third order (Pottmann et al. 2007)
 ///   M1 = 2 pi/15 - pi/48 (3 k1 + k2),   M2 = 2 pi/15 - pi/48 (k1 + 3 k2),   and the volume is 2 pi/3 - pi/4 H.
 inline Surface_curvatures curvatures_in_unit_ball(const Ball_moments& ball) {
-  constexpr double nothing = 1e-9;
+  constexpr double nothing = 1e-9, pi = Ball_moments::pi;
   if (!(std::abs(ball.volume()) > nothing)) return {};  // a closed surface in the ball that encloses nothing
   const Eigen::Vector3d barycentre = ball.first() / ball.volume();
   const Eigen::Matrix3d covariance = ball.second() - ball.first() * barycentre.transpose();
@@ -112,26 +114,25 @@ inline Surface_curvatures curvatures_in_unit_ball(const Ball_moments& ball) {
 }
 
 /// \throws std::invalid_argument
-inline double length_of(const Ball_radius& radius, const Face_geometry& geometry) {
+inline double length_of(const Ball_radius& radius, const Dual_mesh& mesh) {
   if (!(radius.value() > 0) || !std::isfinite(radius.value()))
     throw argument_error("radius", radius.value(), "positive and finite");
   constexpr double smallest = 1e-12;  // so that rounding errors of points are smaller still
-  if (!radius.is_in_edge_lengths()) return std::max(radius.value() / geometry.unit, smallest);
+  if (!radius.is_in_edge_lengths()) return std::max(radius.value() / mesh.unit(), smallest);
   // A mesh without interior edges is a few planes.
-  return std::max(radius.value() * (geometry.edge_length.empty() ? 1 : geometry.mean_edge_length()), smallest);
+  return std::max(radius.value() * (mesh.number_of_edges() == 0 ? 1 : mesh.mean_edge_length()), smallest);
 }
 
 /// Gives each face without area the values of a face that is as few steps away as any.
-inline void fill_faces_without_area(const Dual_graph& graph, const Face_geometry& geometry,
-                                    std::vector<Surface_curvatures>& curvatures) {
-  std::vector<Dual_graph::Index> front;
-  std::vector<bool> known(graph.number_of_faces());
-  for (Dual_graph::Index f = 0; f < known.size(); ++f) {
-    known[f] = !geometry.normal[f].isZero(0);
+inline void fill_faces_without_area(const Dual_mesh& mesh, std::vector<Surface_curvatures>& curvatures) {
+  std::vector<Dual_mesh::Index> front;
+  std::vector<bool> known(mesh.number_of_faces());
+  for (Dual_mesh::Index f = 0; f < known.size(); ++f) {
+    known[f] = !mesh.normal(f).isZero(0);
     if (known[f]) front.push_back(f);
   }
   for (std::size_t i = 0; i < front.size(); ++i)
-    for (const auto& [next, edge] : graph.neighbours(front[i])) {
+    for (const auto& [next, edge] : mesh.graph().neighbours(front[i])) {
       if (known[next]) continue;
       known[next] = true;
       curvatures[next] = curvatures[front[i]];
@@ -139,21 +140,20 @@ inline void fill_faces_without_area(const Dual_graph& graph, const Face_geometry
     }
 }
 
-/// The core of `integral_invariant_curvatures()`: for each radius the curvatures in the order of the faces, radii and
-/// curvatures in the unit of the geometry.
+/// For each radius the curvatures in the order of the faces, radii and curvatures in the unit box.
 template <class ConcurrencyTag>
-std::vector<std::vector<Surface_curvatures>> curvatures_of_faces(const Dual_graph& graph, const Face_geometry& geometry,
-                                                                 const Triangulated_faces& surface,
+std::vector<std::vector<Surface_curvatures>> curvatures_of_faces(const Dual_mesh& mesh,
                                                                  const std::vector<double>& radii,
                                                                  std::vector<Curvature_report>& reports,
                                                                  const Progress& progress) {
   struct Counts {
     std::atomic<std::size_t> across_borders{0}, inside_a_face{0}, round_everything{0};
   };
-  const std::size_t faces = graph.number_of_faces();
+  const std::size_t faces = mesh.number_of_faces();
+  const Triangulated_faces surface(mesh);
   std::vector<std::vector<Surface_curvatures>> curvatures(radii.size(), std::vector<Surface_curvatures>(faces));
   std::vector<Counts> counts(radii.size());
-  const auto measure = [&](Ball_neighbourhood& neighbourhood, Dual_graph::Index f, std::size_t i) {
+  const auto measure = [&](Ball_neighbourhood& neighbourhood, Dual_mesh::Index f, std::size_t i) {
     const Ball_moments moments = neighbourhood.moments(f, radii[i]);
     Surface_curvatures& result = curvatures[i][f];
     result = curvatures_in_unit_ball(moments);
@@ -166,16 +166,16 @@ std::vector<std::vector<Surface_curvatures>> curvatures_of_faces(const Dual_grap
     if (!neighbourhood.leaves_ball()) ++counts[i].round_everything;
   };
   const auto make_worker = [&] {
-    return [&, neighbourhood = Ball_neighbourhood(surface, geometry)](std::size_t f) mutable {
-      if (geometry.normal[f].isZero(0)) return;
-      for (std::size_t i = 0; i < radii.size(); ++i) measure(neighbourhood, static_cast<Dual_graph::Index>(f), i);
+    return [&, neighbourhood = Ball_neighbourhood(surface, mesh)](std::size_t f) mutable {
+      if (mesh.normals()[f].isZero(0)) return;
+      for (std::size_t i = 0; i < radii.size(); ++i) measure(neighbourhood, static_cast<Dual_mesh::Index>(f), i);
     };
   };
   parallel_for<ConcurrencyTag>(faces, make_worker, progress);
 
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    if (geometry.degenerate_faces > 0) fill_faces_without_area(graph, geometry, curvatures[i]);
-    reports.push_back({radii[i] * geometry.unit, geometry.degenerate_faces, counts[i].across_borders,
+    if (mesh.number_of_degenerate_faces() > 0) fill_faces_without_area(mesh, curvatures[i]);
+    reports.push_back({radii[i] * mesh.unit(), mesh.number_of_degenerate_faces(), counts[i].across_borders,
                        counts[i].inside_a_face, counts[i].round_everything});
   }
   return curvatures;
@@ -201,24 +201,24 @@ std::vector<Curvature_report> integral_invariant_curvatures(
     throw internal::argument_error("the number of curvature maps", curvatures.size(),
                                    ("that of radii, " + std::to_string(radii.size())).c_str());
 
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-  std::vector<double> lengths;
-  for (const Ball_radius& radius : radii) lengths.push_back(internal::length_of(radius, geometry));
-  const internal::Triangulated_faces surface(mesh, graph, geometry, np);
+  static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Callback>,
+                "integral_invariant_curvatures() takes the named parameters vertex_point_map and callback.");
 
+  const auto& dual = internal::dual_mesh(mesh, np);
+  std::vector<double> lengths;
+  for (const Ball_radius& radius : radii) lengths.push_back(internal::length_of(radius, dual));
   std::vector<Curvature_report> reports;
-  const auto measured = internal::curvatures_of_faces<ConcurrencyTag>(graph, geometry, surface, lengths, reports,
-                                                                      internal::progress_of(np));
+  const auto measured =
+      internal::curvatures_of_faces<ConcurrencyTag>(dual, lengths, reports, internal::progress_of(np));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const CurvatureMap& map = curvatures[i];
     for (std::size_t f = 0; f < measured[i].size(); ++f) {
       Surface_curvatures value = measured[i][f];
-      value.max_curvature /= geometry.unit;
-      value.min_curvature /= geometry.unit;
-      value.mean_curvature_by_volume /= geometry.unit;
-      value.offset *= geometry.unit;
-      put(map, graph.face_descriptors()[f], value);
+      value.max_curvature /= dual.unit();
+      value.min_curvature /= dual.unit();
+      value.mean_curvature_by_volume /= dual.unit();
+      value.offset *= dual.unit();
+      put(map, dual.face_descriptors()[f], value);
     }
   }
   return reports;

@@ -1,20 +1,22 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_SEGMENT_SURFACES_H
 #define RW_SEGMENTATION_SEGMENT_SURFACES_H
 
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Analytic_surface_cost.h>
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/read_segments.h>
-#include <RW_segmentation/merge_segments.h>
+#include <RW_segmentation/internal/merging/Region_merging.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/surfaces/noise_of_vertices.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <boost/graph/graph_traits.hpp>
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,13 +24,26 @@ namespace RW_segmentation {
 
 namespace internal {
 
-/// From the coordinates of `Face_geometry` to those of the mesh.
-inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Face_geometry& geometry) {
-  surface.point = geometry.unit * surface.point + geometry.origin;
-  surface.radius *= geometry.unit;
-  surface.tube_radius *= geometry.unit;
-  surface.residual *= geometry.unit;
+/// From the unit box to the mesh's coordinates.
+inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Dual_mesh& mesh) {
+  surface.point = mesh.unit() * surface.point + mesh.origin();
+  surface.radius *= mesh.unit();
+  surface.tube_radius *= mesh.unit();
+  surface.residual *= mesh.unit();
   return surface;
+}
+
+/// \param segment_of_face numbers from 0 to `number_of_segments` - 1
+inline std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
+                                                          const std::vector<std::size_t>& segment_of_face,
+                                                          std::size_t number_of_segments, double noise) {
+  constexpr std::size_t most_samples = 500;  // vertices of a segment
+  const Analytic_surface_cost cost(mesh, surface_tolerance(mesh, noise), most_samples);
+  const auto regions =
+      join_faces(segment_of_face, number_of_segments, cost, [&](Dual_mesh::Index f) { return cost.region(mesh, f); });
+  std::vector<Analytic_surface> surfaces;
+  for (const auto& region : regions) surfaces.push_back(in_mesh_coordinates(cost.surface_of(region), mesh));
+  return surfaces;
 }
 
 }  // namespace internal
@@ -37,14 +52,15 @@ inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Face
 ///
 /// Each surface is fitted, in the sense of least squares, to at most 500 vertices of the segment; see
 /// `fit_analytic_surface()`. Where all vertices lie on two circles round one axis, as in the chamfers of a CAD kernel,
-/// spheres pass through them as well as cones, and either may be returned. Complexity: linear in the number of faces, and constant for each segment.
+/// spheres pass through them as well as cones, and either may be returned. Complexity: linear in the number of faces, and
+/// constant for each segment.
 ///
-/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to integers
 /// \tparam NamedParameters a sequence of CGAL's named parameters
 /// \param mesh the mesh
 /// \param segment_ids the segments, from 0 to `number_of_segments` - 1
-/// \param number_of_segments what `segmentation_via_random_walks()` returned
+/// \param number_of_segments what `segmentation_into_surfaces()` returned
 /// \param noise the standard deviation of the vertices from the surfaces, as a part of the diagonal of the bounding
 /// box; negative: estimated from the mesh
 /// \param np `vertex_point_map` (default: that of the mesh)
@@ -54,23 +70,17 @@ template <class FaceListGraph, class SegmentIdMap, class NamedParameters = CGAL:
 std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                                                std::size_t number_of_segments, double noise = -1,
                                                const NamedParameters& np = CGAL::parameters::default_values()) {
-  constexpr std::size_t most_samples = 500;
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const std::vector<std::size_t> segment_of_face = internal::read_segments(graph, segment_ids);
+  static_assert(internal::is_readable_map<SegmentIdMap, typename boost::graph_traits<FaceListGraph>::face_descriptor>,
+                "segment_ids must be a readable property map from the mesh's face_descriptor to an integer.");
+  static_assert(internal::has_only<NamedParameters, internal::Vertex_point>,
+                "segment_surfaces() takes the named parameter vertex_point_map.");
+  const auto& dual = internal::dual_mesh(mesh, np);
+  const std::vector<std::size_t> segment_of_face = dual.read_segments(segment_ids);
   for (const std::size_t segment : segment_of_face)
     if (segment >= number_of_segments)
       throw internal::argument_error("a segment id", segment,
                                      ("less than " + std::to_string(number_of_segments)).c_str());
-
-  const internal::Surface_data data = internal::surface_data(mesh, graph, noise, np);
-  const auto formula = data.formula(most_samples);
-  const auto regions = internal::join_faces(segment_of_face, number_of_segments, formula, [&](std::size_t f) {
-    return formula.region_of(static_cast<Dual_graph::Index>(f));
-  });
-  std::vector<Analytic_surface> surfaces;
-  for (const auto& region : regions)
-    surfaces.push_back(internal::in_mesh_coordinates(formula.surface_of(region), *data.geometry));
-  return surfaces;
+  return internal::surfaces_of_segments(dual, segment_of_face, number_of_segments, noise);
 }
 
 }  // namespace RW_segmentation

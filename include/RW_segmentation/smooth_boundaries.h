@@ -1,24 +1,31 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_SMOOTH_BOUNDARIES_H
 #define RW_SEGMENTATION_SMOOTH_BOUNDARIES_H
 
 #include <RW_segmentation/Boundary_curve.h>
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Boundary_smoother.h>
-#include <RW_segmentation/internal/Face_geometry.h>
-#include <RW_segmentation/internal/Lifted_surface.h>
-#include <RW_segmentation/internal/Triangle_surface.h>
-#include <RW_segmentation/internal/read_segments.h>
+#include <RW_segmentation/internal/boundary/Boundary_smoother.h>
+#include <RW_segmentation/internal/boundary/Curve_joint.h>
+#include <RW_segmentation/internal/boundary/Lifted_surface.h>
+#include <RW_segmentation/internal/boundary/Surface_curve.h>
+#include <RW_segmentation/internal/boundary/Triangle_surface.h>
+#include <RW_segmentation/internal/boundary/Walled_surface.h>
+#include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -83,36 +90,75 @@ inline std::vector<char> sharp_halfedges(const Triangle_surface& surface, const 
   return is_sharp;
 }
 
-/// A node as a halfedge of the mesh and a position.
-template <class TriangleMesh, class NamedParameters>
-Boundary_point<TriangleMesh> boundary_point(const Curve_node& node, const TriangleMesh& mesh,
-                                            const Mesh_dual_graph<TriangleMesh>& graph, const Triangle_surface& surface,
-                                            const NamedParameters& np) {
-  using Index = Triangle_surface::Index;
-  Index number = node.edge;
-  if (node.is_vertex())
-    surface.any_leaving(node.vertex, [&](Index h) {
-      number = Triangle_surface::previous(h);
-      return true;
-    });
-  Boundary_point<TriangleMesh> result;
-  result.halfedge = descriptor_of_halfedge(number, mesh, graph);
-  result.position = node.is_vertex() ? 1 : node.position;
-  const Vertex_points<TriangleMesh, NamedParameters> point(mesh, np);
-  const Eigen::Vector3d p = (1 - result.position) * point(source(result.halfedge, mesh)) +
-                            result.position * point(target(result.halfedge, mesh));
-  result.point = typename Boundary_point<TriangleMesh>::Point(p.x(), p.y(), p.z());
+/// The boundaries in the unit box.
+inline std::vector<Surface_curve> smoothed_curves(const Dual_mesh& mesh, const Walled_surface& surface,
+                                                  const std::vector<std::size_t>& segment_of_face,
+                                                  const Boundary_smoothing& smoothing, const Curve_joining& joining,
+                                                  const Progress& progress) {
+  const std::vector<Eigen::Vector3d> normals = smooth_normals(mesh, smoothing.normals, progress.part(0, 0.5));
+  const Lifted_surface lifted(surface.open(), normals, smoothing.feature_weight * std::sqrt(mesh.total_area()));
+  const Curve_smoothing_numbers numbers = curve_smoothing_numbers(smoothing, surface.whole().mean_edge_length());
+  const Boundary_smoother smooth(surface, lifted, segment_of_face, numbers, joining);
+  return smooth(sharp_halfedges(surface.open(), normals, smoothing.crease_angle), progress.part(0.5, 1));
+}
+
+/// Tells where a halfedge begins, in the mesh's coordinates.
+template <class FaceListGraph, class NamedParameters>
+auto source_points(const FaceListGraph& mesh, const Dual_mesh_of<FaceListGraph>& dual, const NamedParameters& np) {
+  const auto points =
+      CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
+                                         CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+  return [points, &mesh, &dual](Triangle_surface::Index h) {
+    const auto& p = get(points, source(descriptor_of_halfedge(h, dual), mesh));
+    return Eigen::Vector3d(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
+  };
+}
+
+/// A dual mesh has no other points than those in the unit box.
+template <class FaceListGraph, class NamedParameters>
+auto source_points(const Dual_mesh_of<FaceListGraph>& mesh, const Dual_mesh_of<FaceListGraph>&,
+                   const NamedParameters&) {
+  return [&mesh](Triangle_surface::Index h) -> Eigen::Vector3d {
+    return mesh.origin() + mesh.unit() * mesh.point(Triangle_surface::corner(mesh, h));
+  };
+}
+
+/// The curves as polylines on the mesh.
+/// \param source_point from the number of a halfedge to the point where it begins
+template <class Point, class Mesh, class SourcePoint>
+std::vector<Boundary_curve<Mesh, Point>> boundary_curves(const std::vector<Surface_curve>& curves,
+                                                         const Dual_mesh_of<Mesh>& mesh,
+                                                         const Triangle_surface& surface,
+                                                         const SourcePoint& source_point) {
+  std::vector<Boundary_curve<Mesh, Point>> result;
+  for (const Surface_curve& curve : curves) {
+    result.push_back({{}, curve.is_closed, curve.is_smoothed, curve.segments, curve.joining});
+    for (const Curve_node& node : curve.nodes) {
+      const auto h = node.is_vertex() ? Triangle_surface::previous(surface.leaving(node.vertex)) : node.edge;
+      const double t = node.is_vertex() ? 1 : node.position;
+      const Eigen::Vector3d p = (1 - t) * source_point(h) + t * source_point(Triangle_surface::next(h));
+      result.back().points.push_back({descriptor_of_halfedge(h, mesh), t, Point(p.x(), p.y(), p.z())});
+    }
+  }
   return result;
 }
 
 }  // namespace internal
 
+/// Joins consecutive points of a boundary by the plane that holds both of them and the normal between them; where the
+/// surface folds, over as few faces as can be. `smooth_boundaries()` takes this or a `Geodesic_joining`.
+struct Traced_joining {
+  /// What was traced.
+  std::vector<internal::Curve_node> operator()(const internal::Curve_joint& joint) const { return joint.traced; }
+};
+
 /// Smooths the boundaries between the segments of a mesh, which run along edges and are jagged therefore, and keeps
 /// them on creases (3.2).
 ///
-/// Boundaries are taken apart at their branch points: the vertices where more than two segments meet, or where a
-/// boundary meets the border of the mesh. These stay where they are. Each boundary between two of them, and each closed
-/// one, becomes a spline in tension: implicit steps down
+/// Boundaries are taken apart at their branch points: the vertices where more than two segments meet, where a boundary
+/// meets the border of the mesh, or where it comes to a wall or leaves it. These stay where they are, and so do boundaries
+/// along walls. Each other boundary between two of them, and each closed one, becomes a spline in tension: implicit steps
+/// down
 ///
 ///   E = sum |p(i+1) - 2 p(i) + p(i-1)|^2 + tension sum |p(i+1) - p(i)|^2,
 ///
@@ -121,9 +167,9 @@ Boundary_point<TriangleMesh> boundary_point(const Curve_node& node, const Triang
 /// to another sheet of it. Where a boundary follows a crease it keeps to its edges.
 ///
 /// The curves do not cross each other or themselves, and each segment keeps its neighbours and stays in one piece if it
-/// was: a curve that would break this is moved less, or stays as it was. So do curves of a single edge, those around a
-/// single face or vertex, and those that lie on creases all along. No curve leaves its edges by more than the policy
-/// allows: smoothness does not come from shrinking.
+/// was; no curve crosses a wall. A curve that would break this is moved less, or stays as it was. So do curves of a single
+/// edge, those around a single face or vertex, and those that lie on creases all along. No curve leaves its edges by more
+/// than the policy allows: smoothness does not come from shrinking.
 ///
 /// \code
 /// const auto curves = smooth_boundaries(mesh, ids);
@@ -132,48 +178,59 @@ Boundary_point<TriangleMesh> boundary_point(const Curve_node& node, const Triang
 ///
 /// Complexity: O(m) for the normals of m faces, and O(k b) for k steps on b boundary edges.
 ///
-/// \tparam TriangleMesh a model of CGAL's `FaceListGraph`, all faces triangles
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, all faces triangles, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to an integer
+/// \tparam Joining `Traced_joining` or `Geodesic_joining`
 /// \tparam NamedParameters a sequence of CGAL's named parameters
 /// \param mesh the mesh
 /// \param segment_ids the segment of each face
 /// \param smoothing how smooth
-/// \param np `vertex_point_map` (default: that of the mesh), `callback` (`std::function<bool(double)>`, default: none)
+/// \param joining how consecutive points of a boundary are joined
+/// \param np `vertex_point_map` (default: that of the mesh), `edge_is_constrained_map` (readable map from
+/// `edge_descriptor` to `bool`, default: no edge is): the walls, `callback` (`std::function<bool(double)>`, default: none)
 /// \returns a curve for each boundary, open ones first
 /// \throws std::invalid_argument if a face is no triangle, a coordinate is not finite, or a number of the policy is out
 /// of range
 /// \throws Cancelled
-template <class TriangleMesh, class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
-std::vector<Boundary_curve<TriangleMesh>> smooth_boundaries(
-    const TriangleMesh& mesh, const SegmentIdMap& segment_ids, const Boundary_smoothing& smoothing = {},
-    const NamedParameters& np = CGAL::parameters::default_values()) {
+template <class FaceListGraph, class SegmentIdMap, class Joining = Traced_joining,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
+                       const Boundary_smoothing& smoothing = {}, const Joining& joining = {},
+                       const NamedParameters& np = CGAL::parameters::default_values()) {
+  static_assert(
+      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      "smooth_boundaries() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  static_assert(std::is_constructible_v<internal::Curve_joining, const Joining&>,
+                "joining must be a Traced_joining or a Geodesic_joining.");
   internal::require_boundary_smoothing_numbers(smoothing);
   const Progress progress = internal::progress_of(np);
-  const Mesh_dual_graph<TriangleMesh> graph(mesh);
-  const std::vector<std::size_t> segment_of_face = internal::read_segments(graph, segment_ids);
-  const internal::Triangle_surface surface = internal::triangle_surface(mesh, graph, np);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, np);
-  const std::vector<Eigen::Vector3d> normals =
-      internal::smooth_normals(graph, geometry, smoothing.normals, progress.part(0, 0.5));
-
-  const internal::Lifted_surface lifted(surface, normals, smoothing.feature_weight * std::sqrt(geometry.total_area));
-  internal::Boundary_smoother smooth(surface, lifted, segment_of_face,
-                                     internal::curve_smoothing_numbers(smoothing, surface.mean_edge_length()));
-  const std::vector<internal::Surface_curve> smoothed =
-      smooth(internal::sharp_halfedges(surface, normals, smoothing.crease_angle), progress.part(0.5, 1));
-
-  std::vector<Boundary_curve<TriangleMesh>> curves;
-  for (const internal::Surface_curve& curve : smoothed) {
-    Boundary_curve<TriangleMesh> result;
-    result.is_closed = curve.is_closed;
-    result.is_smoothed = smooth.is_smoothed()[curves.size()];
-    result.segments = curve.segments;
-    for (const internal::Curve_node& node : curve.nodes)
-      result.points.push_back(internal::boundary_point(node, mesh, graph, surface, np));
-    curves.push_back(std::move(result));
-  }
+  const auto& dual = internal::dual_mesh(mesh, np);
+  internal::require_triangles(dual);
+  const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
+  const internal::Walled_surface surface(dual);
+  const std::vector<internal::Surface_curve> curves =
+      internal::smoothed_curves(dual, surface, segment_of_face, smoothing, joining, progress);
+  using Mesh = typename internal::Mesh_type<FaceListGraph>::type;
+  using Vertex_points = typename CGAL::GetVertexPointMap<Mesh, NamedParameters>::const_type;
+  using Point = typename boost::property_traits<Vertex_points>::value_type;
+  const auto source_point = internal::source_points(mesh, dual, np);
+  auto result = internal::boundary_curves<Point>(curves, dual, surface.whole(), source_point);
   progress(1);
-  return curves;
+  return result;
+}
+
+/// Named parameters may follow the numbers directly.
+template <class FaceListGraph, class SegmentIdMap, class T, class Tag, class Base>
+auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids, const Boundary_smoothing& smoothing,
+                       const CGAL::Named_function_parameters<T, Tag, Base>& np) {
+  return smooth_boundaries(mesh, segment_ids, smoothing, Traced_joining(), np);
+}
+
+/// Named parameters may follow the segments directly.
+template <class FaceListGraph, class SegmentIdMap, class T, class Tag, class Base>
+auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
+                       const CGAL::Named_function_parameters<T, Tag, Base>& np) {
+  return smooth_boundaries(mesh, segment_ids, Boundary_smoothing(), Traced_joining(), np);
 }
 
 }  // namespace RW_segmentation

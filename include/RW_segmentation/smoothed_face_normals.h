@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_SMOOTHED_FACE_NORMALS_H
 #define RW_SEGMENTATION_SMOOTHED_FACE_NORMALS_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_diffusion.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/mesh/Face_diffusion.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -72,68 +74,110 @@ struct Diffused_normals {
 };
 
 /// \param start for the iteration
-inline Diffused_normals diffused_normals(const Dual_graph& graph, const Face_geometry& geometry, double radius,
-                                         std::vector<Eigen::Vector3d> start, const Progress& progress) {
+inline Diffused_normals diffused_normals(const Dual_mesh& mesh, double radius, std::vector<Eigen::Vector3d> start,
+                                         const Progress& progress) {
   // Of the directions, in radians. On the 190 meshes of the tuning half of the Princeton benchmark, 99.3 % of the faces
   // get the label that they get by an exact solution, as with 1e-5; with 1e-3 it is 96 %.
   constexpr double tolerance = 1e-4;
   constexpr double widest = 100;  // by then all faces of a component share one direction
   radius = std::min(radius, widest);
-  Face_diffusion(graph, geometry, radius * radius * geometry.total_area)
-      .solve(geometry.normal, start, tolerance, progress);
-  std::vector<Eigen::Vector3d> unit = normalised(start, geometry.normal);
-  const double turn = median_turn(unit, geometry.normal);
+  Face_diffusion(mesh, radius * radius * mesh.total_area()).solve(mesh.normals(), start, tolerance, progress);
+  std::vector<Eigen::Vector3d> unit = normalised(start, mesh.normals());
+  const double turn = median_turn(unit, mesh.normals());
   return {std::move(start), std::move(unit), turn};
 }
 
 /// The unit normals, diffused once more to a larger radius if they have noise.
-inline std::vector<Eigen::Vector3d> widened(const Dual_graph& graph, const Face_geometry& geometry,
-                                            const Normal_smoothing& smoothing, Diffused_normals normals,
-                                            const Progress& progress) {
+inline std::vector<Eigen::Vector3d> widened(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
+                                            Diffused_normals normals, const Progress& progress) {
   const double widening = std::min(smoothing.largest_widening, normals.turn / smoothing.noise_angle);
   if (widening > 1.1)
-    normals = diffused_normals(graph, geometry, widening * smoothing.radius, std::move(normals.vector), progress);
+    normals = diffused_normals(mesh, widening * smoothing.radius, std::move(normals.vector), progress);
   progress(1);
   return std::move(normals.unit);
 }
 
+/// Whether there is nothing to smooth.
+inline bool keeps_normals(const Dual_mesh& mesh, const Normal_smoothing& smoothing) {
+  return smoothing.radius == 0 || mesh.number_of_degenerate_faces() == mesh.number_of_faces();
+}
+
 /// Smoothed normals for a shape that is given by its faces alone: vertices stay where they are.
-inline std::vector<Eigen::Vector3d> smooth_normals(const Dual_graph& graph, const Face_geometry& geometry,
-                                                   const Normal_smoothing& smoothing, const Progress& progress = {}) {
+inline std::vector<Eigen::Vector3d> smooth_normals(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
+                                                   const Progress& progress = {}) {
   require_smoothing_numbers(smoothing);
-  const std::vector<Eigen::Vector3d>& own = geometry.normal;
-  if (smoothing.radius == 0 || geometry.degenerate_faces == own.size()) return own;
-  return widened(graph, geometry, smoothing,
-                 diffused_normals(graph, geometry, smoothing.radius, own, progress.part(0, 0.5)),
+  if (keeps_normals(mesh, smoothing)) return mesh.normals();
+  return widened(mesh, smoothing, diffused_normals(mesh, smoothing.radius, mesh.normals(), progress.part(0, 0.5)),
                  progress.part(0.5, 1));
 }
 
-/// The core of `smoothed_face_normals()`: unit vectors in the order of the faces. On a mesh with heavy noise `point` and
-/// `geometry` become those of the shape with its vertices smoothed.
-/// \returns the normals, and whether the vertices were smoothed
-template <class FaceListGraph, class NamedParameters>
-std::pair<std::vector<Eigen::Vector3d>, bool> smooth_normals_and_vertices(
-    const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
-    Unit_box_points<FaceListGraph, NamedParameters>& point, Face_geometry& geometry, const Normal_smoothing& smoothing,
-    const Progress& progress) {
+/// The points of the vertices, each of them off the border moved half-way to the mean of its neighbours, several times,
+/// all at once.
+inline std::vector<Eigen::Vector3d> smoothed_points(const Dual_mesh& mesh, int steps) {
+  using Index = Dual_mesh::Index;
+  std::vector<Eigen::Vector3d> point = mesh.points(), sum(point.size());
+  std::vector<std::size_t> degree(point.size(), 0), faces(point.size(), 0);
+  for (Index e = 0; e < mesh.number_of_edges(); ++e)
+    for (const Index v : mesh.ends(e)) ++degree[v];
+  for (Index f = 0; f < mesh.number_of_faces(); ++f)
+    for (const Index v : mesh.corners(f)) ++faces[v];
+  for (int step = 0; step < steps; ++step) {
+    std::fill(sum.begin(), sum.end(), Eigen::Vector3d::Zero());
+    for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+      const auto [a, b] = mesh.ends(e);
+      sum[a] += point[b];
+      sum[b] += point[a];
+    }
+    for (std::size_t v = 0; v < point.size(); ++v) {
+      const bool is_on_border = degree[v] != faces[v];
+      if (!is_on_border) point[v] = (point[v] + sum[v] / static_cast<double>(degree[v])) / 2;
+    }
+  }
+  return point;
+}
+
+/// The core of `smoothed_shape()`.
+inline Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing, const Progress& progress) {
   // Half as many leave noise of 0.3 % of the diagonal with 0.5 % more error on the Princeton benchmark, twice as many
   // change nothing.
   constexpr int vertex_steps = 4;
 
   require_smoothing_numbers(smoothing);
-  if (smoothing.radius == 0 || geometry.degenerate_faces == geometry.normal.size()) return {geometry.normal, false};
-  Diffused_normals normals =
-      diffused_normals(graph, geometry, smoothing.radius, geometry.normal, progress.part(0, 0.4));
-  const bool is_noise_heavy = normals.turn / smoothing.noise_angle > smoothing.heavy_noise;
-  if (is_noise_heavy) {
-    point.smooth(mesh, vertex_steps);
-    geometry = face_geometry(mesh, graph, point);
-    normals = diffused_normals(graph, geometry, smoothing.radius, std::move(normals.vector), progress.part(0.4, 0.6));
-  }
-  return {widened(graph, geometry, smoothing, std::move(normals), progress.part(0.6, 1)), is_noise_heavy};
+  if (keeps_normals(mesh, smoothing)) return mesh;
+  Diffused_normals normals = diffused_normals(mesh, smoothing.radius, mesh.normals(), progress.part(0, 0.4));
+  if (!(normals.turn / smoothing.noise_angle > smoothing.heavy_noise))
+    return mesh.with_shape_normals(widened(mesh, smoothing, std::move(normals), progress.part(0.6, 1)));
+  const Dual_mesh smoother = mesh.with_points(smoothed_points(mesh, vertex_steps));
+  normals = diffused_normals(smoother, smoothing.radius, std::move(normals.vector), progress.part(0.4, 0.6));
+  return smoother.with_shape_normals(widened(smoother, smoothing, std::move(normals), progress.part(0.6, 1)));
 }
 
 }  // namespace internal
+
+/// The shape that a mesh stands for, as the automatic segmentation sees it: its `shape_normals()` are smoothed, and under
+/// heavy noise its points as well. What `smoothed_face_normals()` writes, as a mesh for the stages that follow.
+///
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
+/// \tparam NamedParameters a sequence of CGAL's named parameters
+/// \param mesh the mesh, which does not change
+/// \param smoothing how far to smooth
+/// \param np `vertex_point_map` (default: that of the mesh), `edge_is_constrained_map` (default: no edge is), `callback`
+/// (`std::function<bool(double)>`, false cancels)
+/// \throws Cancelled if the callback returns `false`
+/// \throws std::invalid_argument if a number of `smoothing` is out of range or a coordinate is not finite (names the
+/// vertex)
+///
+/// Complexity: a few dozen passes over the faces.
+template <class FaceListGraph, class NamedParameters = CGAL::parameters::Default_named_parameters>
+Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type> smoothed_shape(
+    const FaceListGraph& mesh, const Normal_smoothing& smoothing = {},
+    const NamedParameters& np = CGAL::parameters::default_values()) {
+  static_assert(
+      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      "smoothed_shape() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  const auto& dual = internal::dual_mesh(mesh, np);
+  return {internal::shape_of(dual, smoothing, internal::progress_of(np)), dual};
+}
 
 /// Writes the normals of the faces after one implicit step of diffusion over the surface, so that they tell the shape
 /// at the scale of a smoothing length and not that of single triangles.
@@ -165,13 +209,11 @@ void smoothed_face_normals(const FaceListGraph& mesh, FaceNormalMap normals, con
                 "A writable property map from the mesh's face_descriptor to a vector is needed here.");
   using Vector = typename boost::property_traits<FaceNormalMap>::value_type;
 
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  internal::Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
-  internal::Face_geometry geometry = internal::face_geometry(mesh, graph, point);
-  const auto smoothed =
-      internal::smooth_normals_and_vertices(mesh, graph, point, geometry, smoothing, internal::progress_of(np)).first;
-  for (std::size_t i = 0; i < smoothed.size(); ++i)
-    put(normals, graph.face_descriptors()[i], Vector(smoothed[i][0], smoothed[i][1], smoothed[i][2]));
+  const auto shape = smoothed_shape(mesh, smoothing, np);
+  for (std::size_t f = 0; f < shape.number_of_faces(); ++f) {
+    const Eigen::Vector3d& n = shape.shape_normals()[f];
+    put(normals, shape.face_descriptors()[f], Vector(n[0], n[1], n[2]));
+  }
 }
 
 }  // namespace RW_segmentation

@@ -1,13 +1,15 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_SPLIT_ALONG_BOUNDARIES_H
 #define RW_SEGMENTATION_SPLIT_ALONG_BOUNDARIES_H
 
 #include <RW_segmentation/Boundary_curve.h>
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Surface_refinement.h>
-#include <RW_segmentation/internal/Triangle_surface.h>
-#include <RW_segmentation/internal/read_segments.h>
+#include <RW_segmentation/internal/boundary/Surface_refinement.h>
+#include <RW_segmentation/internal/boundary/Triangle_surface.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -57,45 +59,68 @@ struct Split_report {
 
 namespace internal {
 
+/// A point of a curve in numbers.
+/// \param name of the curve
+/// \throws std::invalid_argument if it is not on the mesh
+template <class TriangleMesh, class Point>
+Curve_node curve_node(const Boundary_point<TriangleMesh, Point>& point, const Dual_mesh_of<TriangleMesh>& mesh,
+                      const Triangle_surface& surface, const std::string& name) {
+  if (!(point.position >= 0 && point.position <= 1))
+    throw argument_error(("a position on " + name).c_str(), point.position, "from 0 to 1");
+  Triangle_surface::Index h = number_of_halfedge(point.halfedge, mesh);
+  double position = point.position;
+  if (h == Triangle_surface::none) {  // the side without a face
+    h = number_of_halfedge(opposite(point.halfedge, mesh.mesh()), mesh);
+    position = 1 - position;
+  }
+  if (h == Triangle_surface::none) throw std::invalid_argument("a point of " + name + " is on no face of the mesh");
+  Curve_node node;
+  if (position == 0 || position == 1) {
+    node.vertex = position == 0 ? surface.source(h) : surface.target(h);
+  } else {
+    node.edge = surface.edge(h);
+    node.position = node.edge == h ? position : 1 - position;
+  }
+  return node;
+}
+
 /// The curves in numbers.
-/// \throws std::invalid_argument if a point is not on the mesh
-template <class TriangleMesh>
-std::vector<Surface_curve> surface_curves(const std::vector<Boundary_curve<TriangleMesh>>& curves,
-                                          const TriangleMesh& mesh, const Mesh_dual_graph<TriangleMesh>& graph,
-                                          const Triangle_surface& surface) {
-  const Halfedge_numbers<TriangleMesh> number(mesh, graph);
+/// \throws std::invalid_argument if a curve is none, or a point of it not on the mesh
+template <class TriangleMesh, class Point>
+std::vector<Surface_curve> surface_curves(const std::vector<Boundary_curve<TriangleMesh, Point>>& curves,
+                                          const Dual_mesh_of<TriangleMesh>& mesh, const Triangle_surface& surface) {
   std::vector<Surface_curve> result;
-  for (const Boundary_curve<TriangleMesh>& curve : curves) {
-    result.push_back({{}, curve.is_closed, curve.segments});
-    const std::string name = "curve " + std::to_string(result.size() - 1);
+  for (const auto& curve : curves) {
+    const std::string name = "curve " + std::to_string(result.size());
     if (curve.points.size() < (curve.is_closed ? 3 : 2))
       throw argument_error(("the number of points of " + name).c_str(), curve.points.size(),
                            "at least 2, or 3 if it is closed");
     if (curve.segments[0] == curve.segments[1])
       throw argument_error(("the segment on the right of " + name).c_str(), curve.segments[1],
                            "another one than that on the left");
-    for (const auto& point : curve.points) {
-      if (!(point.position >= 0 && point.position <= 1))
-        throw argument_error(("a position on " + name).c_str(), point.position, "from 0 to 1");
-      Triangle_surface::Index h = number[point.halfedge];
-      double position = point.position;
-      if (h == Triangle_surface::none) {  // the side without a face
-        h = number[opposite(point.halfedge, mesh)];
-        position = 1 - position;
-      }
-      if (h == Triangle_surface::none) throw std::invalid_argument("a point of " + name + " is on no face of the mesh");
-      Curve_node node;
-      if (position == 0 || position == 1) {
-        node.vertex = position == 0 ? surface.source(h) : surface.target(h);
-      } else {
-        node.edge = surface.edge(h);
-        node.position = node.edge == h ? position : 1 - position;
-      }
-      result.back().nodes.push_back(node);
-    }
+    result.push_back({{}, curve.is_closed, curve.segments, curve.is_smoothed, curve.joining});
+    for (const auto& point : curve.points) result.back().nodes.push_back(curve_node(point, mesh, surface, name));
   }
   return result;
 }
+
+/// \throws std::invalid_argument that names the first curve at fault
+inline void require_no_faults(const Surface_refinement& refinement) {
+  if (!refinement.has_faults()) return;
+  const auto& faulty = refinement.faulty_curves();
+  const auto first = std::find(faulty.begin(), faulty.end(), true);
+  if (first == faulty.end()) throw std::invalid_argument("the curves do not bound the segments of the mesh");
+  throw std::invalid_argument("curve " + std::to_string(first - faulty.begin()) +
+                              " crosses another one, cuts off too low a triangle, or does not bound its segments");
+}
+
+/// What is written while a mesh is cut.
+template <class SegmentIdMap, class ConstrainedMap, class VertexPointMap>
+struct Split_maps {
+  SegmentIdMap segments;
+  ConstrainedMap constrained;
+  VertexPointMap points;
+};
 
 /// Carries a planned refinement out. Nothing in here can fail but the allocation of memory.
 template <class TriangleMesh, class SegmentIdMap, class ConstrainedMap, class VertexPointMap, class Visitor>
@@ -107,17 +132,18 @@ class Refinement_step {
   using halfedge_descriptor = typename Traits::halfedge_descriptor;
   using Segment = typename boost::property_traits<SegmentIdMap>::value_type;
   using Point = typename boost::property_traits<VertexPointMap>::value_type;
+  using Maps = Split_maps<SegmentIdMap, ConstrainedMap, VertexPointMap>;
 
-  Refinement_step(TriangleMesh& mesh, const Mesh_dual_graph<TriangleMesh>& graph, const Triangle_surface& surface,
-                  const Surface_refinement& refinement, SegmentIdMap segments, ConstrainedMap constrained,
-                  VertexPointMap points, Visitor& visitor)
+  /// \param mesh what `dual` was read from
+  Refinement_step(TriangleMesh& mesh, const Dual_mesh_of<TriangleMesh>& dual, const Surface_refinement& refinement,
+                  const Maps& maps, Visitor& visitor)
       : mesh_(mesh),
-        graph_(graph),
-        surface_(surface),
+        dual_(dual),
+        surface_(refinement.surface()),
         refinement_(refinement),
-        segments_(segments),
-        constrained_(constrained),
-        points_(points),
+        segments_(maps.segments),
+        constrained_(maps.constrained),
+        points_(maps.points),
         visitor_(visitor) {}
 
   Split_report operator()() {
@@ -142,7 +168,7 @@ class Refinement_step {
   }
 
  private:
-  halfedge_descriptor descriptor(Index h) const { return descriptor_of_halfedge(h, mesh_, graph_); }
+  halfedge_descriptor descriptor(Index h) const { return descriptor_of_halfedge(h, dual_); }
 
   /// So that, where meshes can reserve, none is left in the middle of an operation.
   void reserve_memory() {
@@ -159,8 +185,8 @@ class Refinement_step {
     for (const auto& cut : refinement_.cut_faces()) is_cut[cut.face] = true;
     for (Index f = 0; f < is_cut.size(); ++f) {
       const auto segment = static_cast<Segment>(refinement_.segment_of_face(f));
-      if (is_cut[f] || get(segments_, graph_.face(f)) == segment) continue;
-      put(segments_, graph_.face(f), segment);
+      if (is_cut[f] || get(segments_, dual_.face(f)) == segment) continue;
+      put(segments_, dual_.face(f), segment);
       ++report_.faces_relabelled;
     }
   }
@@ -223,7 +249,7 @@ class Refinement_step {
   }
 
   TriangleMesh& mesh_;
-  const Mesh_dual_graph<TriangleMesh>& graph_;
+  const Dual_mesh_of<TriangleMesh>& dual_;
   const Triangle_surface& surface_;
   const Surface_refinement& refinement_;
   SegmentIdMap segments_;
@@ -271,8 +297,9 @@ class Refinement_step {
 /// \throws std::invalid_argument if a face is no triangle, a coordinate is not finite, a point of a curve is not on the
 /// mesh, two consecutive ones do not belong to one face, curves cross or touch, a new triangle would be lower than a
 /// millionth of the mean edge length, or the curves do not bound the segments; nothing is changed then
-template <class TriangleMesh, class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
-Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Boundary_curve<TriangleMesh>>& curves,
+template <class TriangleMesh, class Point = internal::Mesh_point<TriangleMesh>, class SegmentIdMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Boundary_curve<TriangleMesh, Point>>& curves,
                                     SegmentIdMap segment_ids,
                                     const NamedParameters& np = CGAL::parameters::default_values()) {
   using face_descriptor = typename boost::graph_traits<TriangleMesh>::face_descriptor;
@@ -281,27 +308,29 @@ Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Bounda
   using CGAL::parameters::get_parameter;
   static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                 "segment_ids must be a read-write property map from the mesh's face_descriptor to an integer.");
+  static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained,
+                                   CGAL::internal_np::visitor_t>,
+                "split_along_boundaries() takes the named parameters vertex_point_map, edge_is_constrained_map and "
+                "visitor.");
 
-  const Mesh_dual_graph<TriangleMesh> graph(mesh);
-  const std::vector<std::size_t> segment_of_face = internal::read_segments(graph, segment_ids);
-  const internal::Triangle_surface surface = internal::triangle_surface(mesh, graph, np);
-  const std::vector<internal::Surface_curve> surface_curves = internal::surface_curves(curves, mesh, graph, surface);
-  const internal::Surface_refinement refinement(surface, surface_curves, segment_of_face,
-                                                internal::least_relative_height * surface.mean_edge_length());
-  if (refinement.has_faults()) {
-    const auto& faulty = refinement.faulty_curves();
-    const auto first = std::find(faulty.begin(), faulty.end(), true);
-    if (first == faulty.end()) throw std::invalid_argument("the curves do not bound the segments of the mesh");
-    throw std::invalid_argument("curve " + std::to_string(first - faulty.begin()) +
-                                " crosses another one, cuts off too low a triangle, or does not bound its segments");
-  }
+  const auto points = choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
+                                       CGAL::get_property_map(CGAL::vertex_point, mesh));
+  const Dual_mesh_of<TriangleMesh> dual(mesh, CGAL::parameters::vertex_point_map(points));
+  internal::require_triangles(dual);
+  const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
+  const internal::Triangle_surface surface(dual);
+  const std::vector<internal::Surface_curve> surface_curves = internal::surface_curves(curves, dual, surface);
+  using Refinement = internal::Surface_refinement;
+  const Refinement refinement(surface, surface_curves, segment_of_face,
+                              Refinement::least_relative_height * surface.mean_edge_length());
+  internal::require_no_faults(refinement);
 
   auto visitor = choose_parameter(get_parameter(np, CGAL::internal_np::visitor), Default_split_visitor<TriangleMesh>());
   const auto constrained = choose_parameter(get_parameter(np, CGAL::internal_np::edge_is_constrained),
                                             CGAL::Static_boolean_property_map<edge_descriptor, false>());
-  const auto points = choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
-                                       CGAL::get_property_map(CGAL::vertex_point, mesh));
-  return internal::Refinement_step(mesh, graph, surface, refinement, segment_ids, constrained, points, visitor)();
+  const internal::Split_maps<SegmentIdMap, std::decay_t<decltype(constrained)>, std::decay_t<decltype(points)>> maps = {
+      segment_ids, constrained, points};
+  return internal::Refinement_step(mesh, dual, refinement, maps, visitor)();
 }
 
 }  // namespace RW_segmentation

@@ -1,15 +1,18 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_TRANSFER_SEGMENTS_H
 #define RW_SEGMENTATION_TRANSFER_SEGMENTS_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/internal/Edge_values.h>
-#include <RW_segmentation/internal/Face_geometry.h>
-#include <RW_segmentation/internal/Graph_walk.h>
-#include <RW_segmentation/internal/Triangle_tree.h>
+#include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/parallel_for.h>
-#include <RW_segmentation/internal/read_segments.h>
-#include <RW_segmentation/internal/settle_band.h>
+#include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/rank_labels.h>
+#include <RW_segmentation/internal/walk/read_conductances.h>
+#include <RW_segmentation/internal/walk/settle_band.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -19,6 +22,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -28,13 +32,10 @@ namespace RW_segmentation {
 namespace internal {
 
 /// The triangles of a mesh in the coordinates of another one's unit box.
-template <class FaceListGraph, class NamedParameters, class OtherPoints>
-std::vector<Fan_triangle> triangles_in_frame(const FaceListGraph& mesh, const Mesh_dual_graph<FaceListGraph>& graph,
-                                             const NamedParameters& np, const OtherPoints& frame) {
-  const Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
-  std::vector<Fan_triangle> triangles = fan_triangles(mesh, graph, point);
-  const double scale = point.unit() / frame.unit();
-  const Eigen::Vector3d shift = (point.origin() - frame.origin()) / frame.unit();
+inline std::vector<Fan_triangle> triangles_in_frame(const Dual_mesh& mesh, const Dual_mesh& frame) {
+  std::vector<Fan_triangle> triangles = fan_triangles(mesh);
+  const double scale = mesh.unit() / frame.unit();
+  const Eigen::Vector3d shift = (mesh.origin() - frame.origin()) / frame.unit();
   for (Fan_triangle& triangle : triangles) {
     triangle.corner = scale * triangle.corner + shift;
     triangle.first_side *= scale;
@@ -45,12 +46,12 @@ std::vector<Fan_triangle> triangles_in_frame(const FaceListGraph& mesh, const Me
 
 /// For each face the one of the reduced mesh that is closest to its centroid and looks the same way; the closest of all
 /// where none does.
-inline std::vector<Dual_graph::Index> closest_faces(const Face_geometry& geometry, const Triangle_tree& reduced) {
-  std::vector<Dual_graph::Index> closest(geometry.centroid.size());
+inline std::vector<Dual_mesh::Index> closest_faces(const Dual_mesh& mesh, const Triangle_tree& reduced) {
+  std::vector<Dual_mesh::Index> closest(mesh.number_of_faces());
   parallel_stretches(closest.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      auto found = reduced.closest_face(geometry.centroid[f], geometry.normal[f]);
-      if (!found) found = reduced.closest_face(geometry.centroid[f], Eigen::Vector3d::Zero());
+      auto found = reduced.closest_face(mesh.centroids()[f], mesh.normals()[f]);
+      if (!found) found = reduced.closest_face(mesh.centroids()[f], Eigen::Vector3d::Zero());
       if (!found) throw std::invalid_argument("the reduced mesh has no face with an area");
       closest[f] = *found;
     }
@@ -59,19 +60,16 @@ inline std::vector<Dual_graph::Index> closest_faces(const Face_geometry& geometr
 }
 
 /// Connected regions of faces with one label.
-inline Components regions_of(const Dual_graph& graph, const std::vector<std::size_t>& labels) {
-  std::vector<double> joins(graph.number_of_edges());
-  for (Dual_graph::Index e = 0; e < joins.size(); ++e) {
-    const auto [f, g] = graph.faces_of(e);
-    joins[e] = labels[f] == labels[g];
-  }
-  return components(graph, joins);
+inline Components regions_of(const Dual_mesh& mesh, const std::vector<std::size_t>& labels) {
+  return {mesh.graph(), [&](Dual_mesh::Index e) {
+            const auto [f, g] = mesh.graph().faces_of(e);
+            return labels[f] == labels[g] && !mesh.is_wall(e);
+          }};
 }
 
-/// The regions of each label on the reduced mesh, counted.
-inline std::map<std::size_t, std::size_t> regions_of_labels(const Dual_graph& graph,
+/// How many regions each label has.
+inline std::map<std::size_t, std::size_t> regions_of_labels(const Components& regions,
                                                             const std::vector<std::size_t>& labels) {
-  const Components regions = regions_of(graph, labels);
   std::map<std::size_t, std::size_t> count;
   std::vector<char> is_counted(regions.count, false);
   for (std::size_t f = 0; f < labels.size(); ++f)
@@ -80,10 +78,9 @@ inline std::map<std::size_t, std::size_t> regions_of_labels(const Dual_graph& gr
 }
 
 /// Marks the faces of all regions but the largest ones of each label, of which there are as many as `expected`.
-inline std::vector<char> faces_of_spurious_regions(const Dual_graph& graph, const std::vector<double>& area,
+inline std::vector<char> faces_of_spurious_regions(const Components& regions, const std::vector<double>& area,
                                                    const std::vector<std::size_t>& labels,
                                                    std::map<std::size_t, std::size_t> expected) {
-  const Components regions = regions_of(graph, labels);
   struct Region {
     double area;
     std::size_t label, number;
@@ -107,16 +104,41 @@ inline std::vector<char> faces_of_spurious_regions(const Dual_graph& graph, cons
 
 /// For each label whose faces all lie in the band, the one that is deepest in its segment: last in the order in which
 /// the band was reached.
-inline std::vector<Dual_graph::Index> cores_within(const std::vector<Dual_graph::Index>& band,
-                                                   const std::vector<char>& is_in_band,
-                                                   const std::vector<std::size_t>& labels) {
-  std::map<std::size_t, Dual_graph::Index> deepest;
+inline std::vector<Dual_mesh::Index> cores_within(const std::vector<Dual_mesh::Index>& band,
+                                                  const std::vector<char>& is_in_band,
+                                                  const std::vector<std::size_t>& labels) {
+  std::map<std::size_t, Dual_mesh::Index> deepest;
   for (const auto face : band) deepest[labels[face]] = face;
   for (std::size_t f = 0; f < labels.size(); ++f)
     if (!is_in_band[f]) deepest.erase(labels[f]);
-  std::vector<Dual_graph::Index> cores;
+  std::vector<Dual_mesh::Index> cores;
   for (const auto& [label, face] : deepest) cores.push_back(face);
   return cores;
+}
+
+/// The ids that the faces of the full mesh get from those of the reduced one, by face.
+inline std::vector<std::size_t> transferred(const Dual_mesh& reduced, const std::vector<std::size_t>& reduced_ids,
+                                            const Dual_mesh& mesh, const std::vector<double>& conductances,
+                                            std::size_t band, const Progress& progress) {
+  std::vector<std::size_t> reduced_labels;  // any number may be an id
+  const std::vector<std::size_t> id_of_label = rank_labels(reduced_ids, reduced_labels);
+  const Triangle_tree tree(triangles_in_frame(reduced, mesh));
+  std::vector<std::size_t> labels;
+  labels.reserve(mesh.number_of_faces());
+  for (const auto closest : closest_faces(mesh, tree)) labels.push_back(reduced_labels[closest]);
+  progress(0.5);
+  if (band > 0) {
+    const std::vector<Dual_mesh::Index> along = band_along_boundaries(mesh.graph(), labels, band);
+    std::vector<char> is_in_band =
+        faces_of_spurious_regions(regions_of(mesh, labels), mesh.areas(), labels,
+                                  regions_of_labels(regions_of(reduced, reduced_labels), reduced_labels));
+    for (const auto face : along) is_in_band[face] = true;
+    settle_band(mesh.graph(), conductances, is_in_band, cores_within(along, is_in_band, labels), labels,
+                progress.part(0.5, 1));
+  }
+  progress(1);
+  for (std::size_t& label : labels) label = id_of_label[label];
+  return labels;
 }
 
 }  // namespace internal
@@ -132,10 +154,10 @@ inline std::vector<Dual_graph::Index> cores_within(const std::vector<Dual_graph:
 /// For large meshes `segmentation_via_random_walks()` reduces the walk by itself, which is faster than to make a reduced
 /// mesh.
 ///
-/// \tparam ReducedMesh a model of CGAL's `FaceListGraph`
+/// \tparam ReducedMesh a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam ReducedIdMap a readable property map from its face descriptors to an integer
-/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
-/// \tparam ConductanceMap a readable property map from its edge descriptors to `double`, such as `Conductance`
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
+/// \tparam ConductanceMap `Conductance`, or what `as_conductance()` makes of a map of one's own
 /// \tparam SegmentIdMap a writable property map from its face descriptors to an integer
 /// \tparam ReducedNamedParameters, NamedParameters sequences of CGAL's named parameters
 /// \param reduced the reduced mesh, in the place of the full one
@@ -145,11 +167,12 @@ inline std::vector<Dual_graph::Index> cores_within(const std::vector<Dual_graph:
 /// \param segment_ids output, the ids of the reduced mesh
 /// \param band how many faces on either side of a boundary are walked on; about the length of a reduced edge in full
 /// ones. 0 leaves what the closest faces say
-/// \param np `vertex_point_map` of the full mesh, `callback` (`std::function<bool(double)>`, `false` cancels)
-/// \param reduced_np `vertex_point_map` of the reduced mesh
+/// \param np `vertex_point_map` and `edge_is_constrained_map` of the full mesh, `callback`
+/// (`std::function<bool(double)>`, `false` cancels)
+/// \param reduced_np `vertex_point_map` and `edge_is_constrained_map` of the reduced mesh
 /// \returns the number of different ids written
 /// \throws std::invalid_argument if the reduced mesh has no face with an area while the full one has faces, a conductance
-/// is negative or NaN, or a coordinate not finite; nothing is written then
+/// is negative or not finite, or a coordinate not finite; nothing is written then
 /// \throws Cancelled; nothing is written then
 ///
 /// Complexity: O(m log n) for m faces and n of the reduced mesh, and that of the walk on the bands.
@@ -166,38 +189,26 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
   static_assert(internal::is_readable_map<ReducedIdMap, typename boost::graph_traits<ReducedMesh>::face_descriptor>,
                 "reduced_ids must be a readable property map from the reduced mesh's face_descriptor to an integer.");
   using Id = typename boost::property_traits<SegmentIdMap>::value_type;
+  static_assert(internal::has_conductances<ConductanceMap>,
+                "transfer_segments() needs conductances: Conductance(mesh, difference), or as_conductance(map) for "
+                "values of your own.");
+  static_assert(
+      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      "transfer_segments() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  static_assert(internal::has_only<ReducedNamedParameters, internal::Vertex_point, internal::Edge_is_constrained>,
+                "transfer_segments() takes the named parameters vertex_point_map and edge_is_constrained_map of the "
+                "reduced mesh.");
   const Progress progress = internal::progress_of(np);
   progress(0);
-  const Mesh_dual_graph<FaceListGraph> graph(mesh);
-  const std::vector<double> conductances = internal::read_edge_values(graph, conductance, "the conductance");
-  const internal::Unit_box_points<FaceListGraph, NamedParameters> point(mesh, np);
-  const internal::Face_geometry geometry = internal::face_geometry(mesh, graph, point);
-
-  const Mesh_dual_graph<ReducedMesh> reduced_graph(reduced);
-  const std::vector<std::size_t> ids = internal::read_segments(reduced_graph, reduced_ids);
-  std::vector<std::size_t> reduced_labels;
-  const std::vector<std::size_t> id_of_label = internal::rank_labels(ids, reduced_labels);
-  const internal::Triangle_tree tree(internal::triangles_in_frame(reduced, reduced_graph, reduced_np, point));
-  std::vector<std::size_t> labels;
-  labels.reserve(graph.number_of_faces());
-  for (const auto closest : internal::closest_faces(geometry, tree)) labels.push_back(reduced_labels[closest]);
-  progress(0.5);
-
-  if (band > 0) {
-    std::vector<Dual_graph::Index> along = internal::band_along_boundaries(graph, labels, band);
-    std::vector<char> is_in_band = internal::faces_of_spurious_regions(
-        graph, geometry.area, labels, internal::regions_of_labels(reduced_graph, reduced_labels));
-    for (const auto face : along) is_in_band[face] = true;
-    internal::settle_band(graph, conductances, is_in_band, internal::cores_within(along, is_in_band, labels), labels,
-                          progress.part(0.5, 1));
-  }
-  progress(1);
-  std::vector<char> is_written(id_of_label.size(), false);
-  for (std::size_t f = 0; f < labels.size(); ++f) {
-    put(segment_ids, graph.face_descriptors()[f], static_cast<Id>(id_of_label[labels[f]]));
-    is_written[labels[f]] = true;
-  }
-  return static_cast<std::size_t>(std::count(is_written.begin(), is_written.end(), true));
+  const auto& full = internal::dual_mesh(mesh, np);
+  const std::vector<double> conductances = internal::read_conductances(full, conductance);
+  const auto& coarse = internal::dual_mesh(reduced, reduced_np);
+  const auto ids = coarse.read_faces(reduced_ids, [](const auto& id) { return static_cast<std::size_t>(id); });
+  const auto transferred = internal::transferred(coarse, ids, full, conductances, band, progress);
+  // What may run out of memory comes before the first id is written.
+  const std::size_t segments = std::set<std::size_t>(transferred.begin(), transferred.end()).size();
+  full.write_faces(std::vector<Id>(transferred.begin(), transferred.end()), segment_ids);
+  return segments;
 }
 
 }  // namespace RW_segmentation

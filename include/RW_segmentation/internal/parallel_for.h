@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_INTERNAL_PARALLEL_FOR_H
 #define RW_SEGMENTATION_INTERNAL_PARALLEL_FOR_H
 
@@ -107,6 +109,18 @@ void at_the_same_time(const Background& in_background, const Here& here) {
     here();
     in_background();
   }
+}
+
+/// Calls `work()`, whose parts use threads only where a concurrency tag says so.
+template <class ConcurrencyTag, class Work>
+auto with_threads(const Work& work) {
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (!has_threads<ConcurrencyTag>()) {
+    tbb::task_arena calling_thread_alone(1);
+    return calling_thread_alone.execute(work);
+  }
+#endif
+  return work();
 }
 
 /// Calls `worker(i)` for i = 0 .. `number` - 1, with a worker of its own for each thread, made by `make_worker()`.

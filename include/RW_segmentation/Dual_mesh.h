@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_DUAL_MESH_H
+#define RW_SEGMENTATION_DUAL_MESH_H
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/mesh/Descriptor_index.h>
+#include <RW_segmentation/internal/mesh/Face_corners.h>
+#include <RW_segmentation/internal/mesh/Face_geometry.h>
+#include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/unit_vector.h>
+
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+/// A mesh as the walk sees it: the dual graph, measured. All stages compute on it and on plain arrays by face, edge or
+/// vertex.
+///
+/// It never changes, and copies share what it holds. Everything is measured in the unit box: the mesh is moved to the
+/// origin and scaled to a bounding box of diagonal 1, so that neither far, huge nor tiny coordinates lose digits.
+///
+/// Faces, edges and vertices are numbered from 0. Edges are those between two different faces; the mesh's border is none.
+/// Walls are edges that no stage crosses: no seed distance, walk, merge or surface.
+///
+/// Memory: about 200 bytes a triangle.
+class Dual_mesh {
+ public:
+  /// Numbers of faces, edges and vertices.
+  using Index = Dual_graph::Index;
+  /// The corners of a face: a range of numbers of vertices with `size()` and `operator[]`, counterclockwise from outside.
+  using Corners = internal::Face_corners::Range;
+
+  /// What a mesh is made from.
+  struct Arrays {
+    Dual_graph graph;                             ///< of the faces
+    internal::Face_corners corners;               ///< of the faces
+    std::vector<std::array<Index, 2>> edge_ends;  ///< by edge, in the direction of the first of its faces
+    std::vector<Eigen::Vector3d> points;          ///< by vertex, finite
+    std::vector<char> is_wall;                    ///< by edge; empty: no edge is
+  };
+
+  /// A mesh without faces.
+  Dual_mesh() : Dual_mesh(Arrays()) {}
+
+  /// \param points_in_box the unit box that the points lie in already; without it they are moved and scaled
+  /// Complexity: linear.
+  explicit Dual_mesh(Arrays arrays, const internal::Unit_box* points_in_box = nullptr) {
+    box_ = points_in_box ? *points_in_box : internal::Unit_box(arrays.points);
+    if (!points_in_box)
+      for (Eigen::Vector3d& p : arrays.points) p = box_.scaled(p);
+    geometry_ =
+        std::make_shared<const internal::Face_geometry>(arrays.points, arrays.corners, arrays.edge_ends, box_.rounding);
+    arrays_ = std::make_shared<const Arrays>(std::move(arrays));
+    points_ = {arrays_, &arrays_->points};
+    shape_normals_ = {geometry_, &geometry_->normal};
+  }
+
+  /// The faces and their neighbours, a graph of Boost.Graph.
+  const Dual_graph& graph() const { return arrays_->graph; }
+  /// Faces are numbered from 0 to this - 1.
+  std::size_t number_of_faces() const { return graph().number_of_faces(); }
+  /// Edges are numbered from 0 to this - 1.
+  std::size_t number_of_edges() const { return graph().number_of_edges(); }
+  /// Vertices are numbered from 0 to this - 1. Those without a face are not counted.
+  std::size_t number_of_vertices() const { return points_->size(); }
+
+  /// The vertices of a face.
+  Corners corners(Index face) const { return arrays_->corners[face]; }
+  /// The two vertices of an edge, in the direction of the first of its faces.
+  const std::array<Index, 2>& ends(Index edge) const { return arrays_->edge_ends[edge]; }
+  /// Where a vertex is.
+  const Eigen::Vector3d& point(Index vertex) const { return (*points_)[vertex]; }
+  /// By vertex.
+  const std::vector<Eigen::Vector3d>& points() const { return *points_; }
+
+  /// By face: the mean of the corners.
+  const std::vector<Eigen::Vector3d>& centroids() const { return geometry_->centroid; }
+  /// By face: the outward normal of unit length, zero for a face without area.
+  const std::vector<Eigen::Vector3d>& normals() const { return geometry_->normal; }
+  /// By face: the normal of the shape that the mesh stands for, as `smoothed_shape()` sees it; the face's own otherwise.
+  const std::vector<Eigen::Vector3d>& shape_normals() const { return *shape_normals_; }
+  /// By face.
+  const std::vector<double>& areas() const { return geometry_->area; }
+  /// By edge.
+  const std::vector<double>& edge_lengths() const { return geometry_->edge_length; }
+  /// See `centroids()`.
+  const Eigen::Vector3d& centroid(Index face) const { return geometry_->centroid[face]; }
+  /// See `normals()`.
+  const Eigen::Vector3d& normal(Index face) const { return geometry_->normal[face]; }
+  /// The area of a face.
+  double area(Index face) const { return geometry_->area[face]; }
+  /// The length of an edge.
+  double edge_length(Index edge) const { return geometry_->edge_length[edge]; }
+  /// Of all faces.
+  double total_area() const { return geometry_->total_area; }
+  /// 0 without edges.
+  double mean_edge_length() const { return geometry_->mean_edge_length; }
+  /// The length R in which boundaries of regions are measured: the root of the total area, 1 for a mesh without area.
+  double length_unit() const { return total_area() > 0 ? std::sqrt(total_area()) : 1; }
+  /// Faces without area.
+  std::size_t number_of_degenerate_faces() const { return geometry_->degenerate_faces; }
+
+  /// Whether any edge is a wall.
+  bool has_walls() const { return !arrays_->is_wall.empty(); }
+  /// Whether no stage crosses an edge.
+  bool is_wall(Index edge) const { return has_walls() && arrays_->is_wall[edge]; }
+
+  /// The length of 1 in the unit of the mesh's coordinates.
+  double unit() const { return box_.unit; }
+  /// The centre of the unit box in the mesh's coordinates.
+  const Eigen::Vector3d& origin() const { return box_.origin; }
+  /// By how much the rounding of coordinates may displace a point.
+  double rounding() const { return box_.rounding; }
+
+  /// This mesh with other normals of its shape.
+  /// \param normals by face, of unit length or zero
+  Dual_mesh with_shape_normals(std::vector<Eigen::Vector3d> normals) const {
+    Dual_mesh result = *this;
+    result.shape_normals_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(normals));
+    return result;
+  }
+
+  /// This mesh with its vertices elsewhere.
+  /// \param points by vertex, in the unit box, which stays what it is
+  Dual_mesh with_points(std::vector<Eigen::Vector3d> points) const {
+    Dual_mesh result = *this;
+    result.points_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(points));
+    result.geometry_ = std::make_shared<const internal::Face_geometry>(*result.points_, arrays_->corners,
+                                                                       arrays_->edge_ends, box_.rounding);
+    result.shape_normals_ = {result.geometry_, &result.geometry_->normal};
+    return result;
+  }
+
+ private:
+  internal::Unit_box box_;
+  std::shared_ptr<const Arrays> arrays_;
+  std::shared_ptr<const internal::Face_geometry> geometry_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> points_, shape_normals_;
+};
+
+namespace internal {
+
+/// The faces on both sides of a mesh edge, that of `halfedge(edge, mesh)` first; null where the mesh ends.
+template <class FaceListGraph>
+auto faces_beside(typename boost::graph_traits<FaceListGraph>::edge_descriptor edge, const FaceListGraph& mesh) {
+  const auto h = halfedge(edge, mesh);
+  return std::make_pair(face(h, mesh), face(opposite(h, mesh), mesh));
+}
+
+/// The descriptors of a mesh by their numbers, and back.
+///
+/// Faces are numbered breadth-first from the first one of each component, edges by the lower one of their faces: what
+/// passes over a large mesh finds most of what it needs in the cache, whatever the order of the mesh.
+template <class FaceListGraph>
+struct Descriptors {
+  using Index = Dual_graph::Index;
+  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
+
+  std::vector<face_descriptor> face_descriptors;
+  std::vector<edge_descriptor> edge_descriptors;
+  std::vector<Index> place;  ///< by face: in the order of `faces(mesh)`
+  Descriptor_index<face_descriptor> index;
+
+  /// Reads the mesh.
+  /// \returns its graph
+  Dual_graph read(const FaceListGraph& mesh) {
+    const Dual_graph unordered = read_in_order_of_mesh(mesh);
+    return renumber(unordered, breadth_first_order(unordered));
+  }
+
+ private:
+  Dual_graph read_in_order_of_mesh(const FaceListGraph& mesh) {
+    check_number(num_faces(mesh), "faces");
+    check_number(2 * std::size_t(num_edges(mesh)), "halfedges");
+    const auto null_face = boost::graph_traits<FaceListGraph>::null_face();
+    face_descriptors.reserve(num_faces(mesh));
+    index.reserve(num_faces(mesh));
+    for (const face_descriptor f : faces(mesh)) {
+      index.insert(f, static_cast<Index>(face_descriptors.size()));
+      face_descriptors.push_back(f);
+    }
+    std::vector<std::array<Index, 2>> sides;
+    sides.reserve(num_edges(mesh));
+    edge_descriptors.reserve(num_edges(mesh));
+    for (const edge_descriptor e : edges(mesh)) {
+      const auto [f, g] = faces_beside(e, mesh);
+      if (f == null_face || g == null_face || f == g) continue;
+      sides.push_back({index[f], index[g]});
+      edge_descriptors.push_back(e);
+    }
+    return {face_descriptors.size(), std::move(sides)};
+  }
+
+  static std::vector<Index> breadth_first_order(const Dual_graph& graph) {
+    std::vector<Index> order;
+    std::vector<bool> reached(graph.number_of_faces(), false);
+    order.reserve(reached.size());
+    const auto reach = [&](std::size_t face) {
+      if (reached[face]) return;
+      reached[face] = true;
+      order.push_back(static_cast<Index>(face));
+    };
+    for (std::size_t f = 0; f < reached.size(); ++f) {
+      std::size_t next = order.size();
+      for (reach(f); next < order.size(); ++next)
+        for (const auto& neighbour : graph.neighbours(order[next])) reach(neighbour.face);
+    }
+    return order;
+  }
+
+  Dual_graph renumber(const Dual_graph& unordered, std::vector<Index> order) {
+    std::vector<Index> number(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<Index>(i);
+    std::vector<std::array<Index, 2>> sides;
+    std::vector<edge_descriptor> ordered_edges;
+    std::vector<face_descriptor> ordered_faces;
+    sides.reserve(edge_descriptors.size());
+    ordered_edges.reserve(edge_descriptors.size());
+    ordered_faces.reserve(face_descriptors.size());
+    for (const Index f : order) {
+      index.insert(face_descriptors[f], static_cast<Index>(ordered_faces.size()));
+      ordered_faces.push_back(face_descriptors[f]);
+      for (const auto& [g, e] : unordered.neighbours(f)) {
+        if (number[g] < number[f]) continue;
+        const auto [first, second] = unordered.faces_of(e);
+        sides.push_back({number[first], number[second]});
+        ordered_edges.push_back(edge_descriptors[e]);
+      }
+    }
+    face_descriptors = std::move(ordered_faces);
+    edge_descriptors = std::move(ordered_edges);
+    place = std::move(order);
+    return {face_descriptors.size(), std::move(sides)};
+  }
+};
+
+/// Reads the vertices at the corners of faces, in the order in which the faces come to them.
+/// \throws std::invalid_argument if a coordinate is not finite, naming the vertex by its place in the order of
+/// `vertices(mesh)`
+template <class FaceListGraph, class NamedParameters>
+void read_vertices(const FaceListGraph& mesh, const Descriptors<FaceListGraph>& descriptors, const NamedParameters& np,
+                   Dual_mesh::Arrays& arrays) {
+  using Index = Dual_graph::Index;
+  using vertex_descriptor = typename boost::graph_traits<FaceListGraph>::vertex_descriptor;
+  check_number(num_vertices(mesh), "vertices");
+  const auto points =
+      CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
+                                         CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+  Descriptor_index<vertex_descriptor> number;
+  number.reserve(num_vertices(mesh));
+  arrays.points.reserve(num_vertices(mesh));
+  const auto add = [&](vertex_descriptor v) {
+    const auto& p = get(points, v);
+    const Eigen::Vector3d point(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
+    if (!point.allFinite()) {
+      std::size_t place = 0;
+      for (const vertex_descriptor w : vertices(mesh)) {
+        if (w == v) break;
+        ++place;
+      }
+      throw std::invalid_argument("vertex " + std::to_string(place) + " has a coordinate that is not finite");
+    }
+    const auto added = static_cast<Index>(arrays.points.size());
+    number.insert(v, added);
+    arrays.points.push_back(point);
+    return added;
+  };
+  arrays.corners.reserve(descriptors.face_descriptors.size(), 3 * descriptors.face_descriptors.size());
+  for (const auto f : descriptors.face_descriptors) {
+    const auto first = halfedge(f, mesh);
+    auto h = first;
+    do {
+      const vertex_descriptor v = target(h, mesh);
+      const Index known = number[v];
+      arrays.corners.add(known == number.none ? add(v) : known);
+      h = next(h, mesh);
+    } while (h != first);
+    arrays.corners.end_face();
+  }
+  arrays.edge_ends.reserve(descriptors.edge_descriptors.size());
+  for (const auto e : descriptors.edge_descriptors) {
+    const auto h = halfedge(e, mesh);
+    arrays.edge_ends.push_back({number[source(h, mesh)], number[target(h, mesh)]});
+  }
+}
+
+}  // namespace internal
+
+/// The dual mesh of a mesh together with the mesh's own descriptors: reads a map into an array, writes an array into a map.
+///
+/// Every function of the library that takes a mesh takes this in its place and does not read the mesh again:
+/// \code
+/// const Dual_mesh_of dual(mesh);
+/// const Dual_mesh_of shape = smoothed_shape(dual);
+/// const Conductance conductance(shape, Dihedral_difference(shape));
+/// \endcode
+///
+/// Numbers depend on the mesh's connectivity alone. Ids that the mesh may hold are not used.
+///
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`: `Surface_mesh`, `Polyhedron_3` with or without ids, OpenMesh,
+/// `Face_filtered_graph`, meshes with removed elements
+template <class FaceListGraph>
+class Dual_mesh_of : public Dual_mesh {
+ public:
+  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
+  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
+  /// The type of the mesh.
+  using Mesh = FaceListGraph;
+
+  /// The number of a descriptor that is not part of the mesh.
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  /// Reads the mesh.
+  ///
+  /// \tparam NamedParameters a sequence of CGAL's named parameters
+  /// \param mesh the mesh, its faces oriented outward; it must outlive this and keep its faces and edges
+  /// \param np `vertex_point_map` (default: that of the mesh), `edge_is_constrained_map` (readable map from
+  /// `edge_descriptor` to `bool`, default: no edge is): the walls
+  /// \throws std::invalid_argument if a coordinate is not finite (names the vertex)
+  /// \throws std::length_error if there are 2^32 - 1 faces, halfedges or vertices, or more
+  /// Complexity: linear.
+  template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+  explicit Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np = CGAL::parameters::default_values())
+      : Dual_mesh_of(mesh, np, std::make_shared<internal::Descriptors<FaceListGraph>>()) {}
+
+  /// A dual mesh with the same graph as another one, and that one's descriptors.
+  Dual_mesh_of(Dual_mesh mesh, const Dual_mesh_of& other)
+      : Dual_mesh(std::move(mesh)), mesh_(other.mesh_), descriptors_(other.descriptors_) {}
+
+  /// The mesh that was read.
+  const FaceListGraph& mesh() const { return *mesh_; }
+
+  /// The face of the mesh that has a number.
+  face_descriptor face(Index i) const { return descriptors_->face_descriptors[i]; }
+  /// By number.
+  const std::vector<face_descriptor>& face_descriptors() const { return descriptors_->face_descriptors; }
+  /// The mesh edge that has a number. Its first halfedge, `halfedge(edge(i), mesh)`, lies in `graph().faces_of(i)[0]`.
+  edge_descriptor edge(Index i) const { return descriptors_->edge_descriptors[i]; }
+  /// By number.
+  const std::vector<edge_descriptor>& edge_descriptors() const { return descriptors_->edge_descriptors; }
+  /// The number of a face, `none` if the mesh has no such face.
+  Index index(face_descriptor f) const { return descriptors_->index[f]; }
+  /// The place of a face in the order of `faces(mesh)`, by which errors name it.
+  Index place(Index face) const { return descriptors_->place[face]; }
+
+  /// A map of faces as an array, each value converted by a function.
+  /// \param convert from the map's value to the array's
+  template <class FaceMap, class Convert>
+  auto read_faces(const FaceMap& map, const Convert& convert) const {
+    static_assert(internal::is_readable_map<FaceMap, face_descriptor>,
+                  "A readable property map from the mesh's face_descriptor is needed here.");
+    std::vector<std::decay_t<decltype(convert(get(map, face(0))))>> values;
+    values.reserve(number_of_faces());
+    for (const face_descriptor f : face_descriptors()) values.push_back(convert(get(map, f)));
+    return values;
+  }
+
+  /// A map of segment ids as an array.
+  template <class SegmentIdMap>
+  std::vector<std::size_t> read_segments(const SegmentIdMap& segment_ids) const {
+    static_assert(internal::is_readable_map<SegmentIdMap, face_descriptor>,
+                  "segment_ids must be a readable property map from the mesh's face_descriptor to an integer.");
+    return read_faces(segment_ids, [](const auto& id) { return static_cast<std::size_t>(id); });
+  }
+
+  /// A map of vectors as unit vectors; zero vectors stay zero.
+  /// \throws std::invalid_argument if a vector is not finite, naming the face by its place
+  template <class FaceNormalMap>
+  std::vector<Eigen::Vector3d> read_normals(const FaceNormalMap& normals) const {
+    std::vector<Eigen::Vector3d> vectors = read_faces(normals, [](const auto& n) {
+      return Eigen::Vector3d(CGAL::to_double(n[0]), CGAL::to_double(n[1]), CGAL::to_double(n[2]));
+    });
+    for (std::size_t f = 0; f < vectors.size(); ++f) {
+      if (!vectors[f].allFinite())
+        throw internal::argument_error(("the normal of face " + std::to_string(place(static_cast<Index>(f)))).c_str(),
+                                       vectors[f].transpose(), "finite");
+      vectors[f] = internal::unit_vector(vectors[f]);
+    }
+    return vectors;
+  }
+
+  /// A map of edges, such as a difference, as an array; each edge is asked once.
+  /// \param argument the name of the map in errors
+  /// \throws std::invalid_argument if a value is negative or NaN, naming the edge by the places of its faces
+  template <class EdgeMap>
+  std::vector<double> read_edges(const EdgeMap& map, const char* argument) const {
+    static_assert(internal::is_readable_map<EdgeMap, edge_descriptor>,
+                  "A readable property map from the mesh's edge_descriptor to double is needed here.");
+    static_assert(std::is_convertible_v<typename boost::property_traits<EdgeMap>::value_type, double>,
+                  "The values of this edge map must be convertible to double.");
+    std::vector<double> values;
+    values.reserve(number_of_edges());
+    for (const edge_descriptor e : edge_descriptors()) values.push_back(static_cast<double>(get(map, e)));
+    check_edges(values, argument);
+    return values;
+  }
+
+  /// \throws std::invalid_argument if a value by edge is negative or NaN, naming the edge by the places of its faces
+  void check_edges(const std::vector<double>& values, const char* argument) const {
+    for (std::size_t e = 0; e < values.size(); ++e) {
+      if (values[e] >= 0) continue;
+      const auto [f, g] = graph().faces_of(static_cast<Index>(e));
+      const std::string where =
+          " on the edge between faces " + std::to_string(place(f)) + " and " + std::to_string(place(g));
+      throw internal::argument_error((argument + where).c_str(), values[e], "a number >= 0");
+    }
+  }
+
+  /// Writes an array by face into a map.
+  template <class FaceMap, class Value>
+  void write_faces(const std::vector<Value>& values, FaceMap map) const {
+    for (std::size_t f = 0; f < values.size(); ++f) put(map, descriptors_->face_descriptors[f], values[f]);
+  }
+
+ private:
+  template <class NamedParameters>
+  Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np,
+               const std::shared_ptr<internal::Descriptors<FaceListGraph>>& descriptors)
+      : Dual_mesh(arrays_of(mesh, np, *descriptors)), mesh_(&mesh), descriptors_(descriptors) {}
+
+  template <class NamedParameters>
+  static Arrays arrays_of(const FaceListGraph& mesh, const NamedParameters& np,
+                          internal::Descriptors<FaceListGraph>& descriptors) {
+    Arrays arrays;
+    arrays.graph = descriptors.read(mesh);
+    internal::read_vertices(mesh, descriptors, np, arrays);
+    if constexpr (internal::has_parameter<NamedParameters, internal::Edge_is_constrained>) {
+      const auto walls = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
+      arrays.is_wall.reserve(descriptors.edge_descriptors.size());
+      for (const edge_descriptor e : descriptors.edge_descriptors)
+        arrays.is_wall.push_back(static_cast<bool>(get(walls, e)));
+    }
+    return arrays;
+  }
+
+  const FaceListGraph* mesh_;
+  std::shared_ptr<const internal::Descriptors<FaceListGraph>> descriptors_;
+};
+
+namespace internal {
+
+/// What a function that takes a mesh begins with: reads it.
+template <class FaceListGraph, class NamedParameters>
+Dual_mesh_of<FaceListGraph> dual_mesh(const FaceListGraph& mesh, const NamedParameters& np) {
+  return Dual_mesh_of<FaceListGraph>(mesh, np);
+}
+
+/// What has been read already is taken as it is.
+template <class FaceListGraph, class NamedParameters>
+const Dual_mesh_of<FaceListGraph>& dual_mesh(const Dual_mesh_of<FaceListGraph>& mesh, const NamedParameters&) {
+  static_assert(!has_parameter<NamedParameters, Vertex_point> && !has_parameter<NamedParameters, Edge_is_constrained>,
+                "A Dual_mesh_of has its points and constrained edges: give them to its constructor.");
+  return mesh;
+}
+
+/// The type of mesh that a function was given, or that was read into the `Dual_mesh_of` that it was given.
+template <class FaceListGraph>
+struct Mesh_type {
+  using type = FaceListGraph;
+};
+template <class FaceListGraph>
+struct Mesh_type<Dual_mesh_of<FaceListGraph>> {
+  using type = FaceListGraph;
+};
+
+}  // namespace internal
+}  // namespace RW_segmentation
+
+namespace boost {
+
+/// A function of the library knows the descriptors of the mesh that was read.
+template <class FaceListGraph>
+struct graph_traits<RW_segmentation::Dual_mesh_of<FaceListGraph>> : graph_traits<FaceListGraph> {};
+
+}  // namespace boost
+
+#endif

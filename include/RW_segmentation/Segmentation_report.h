@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_SEGMENTATION_REPORT_H
+#define RW_SEGMENTATION_SEGMENTATION_REPORT_H
+
+#include <RW_segmentation/Segment_hierarchy.h>
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+/// What happened in a segmentation, and how long it took.
+struct Segmentation_report {
+  std::size_t components = 0;        ///< connected components of the mesh, which walls cut, too
+  std::size_t seeds = 0;             ///< given and automatic ones
+  std::size_t clusters = 0;          ///< that the walk was reduced to; 0 if it ran over the faces
+  std::size_t fragments = 0;         ///< before merging
+  std::size_t degenerate_faces = 0;  ///< faces without area
+  std::size_t island_faces = 0;      ///< faces that the walk left apart from their fragment, moved to a neighbour
+  bool has_heavy_noise = false;      ///< the vertices were smoothed to see the shape, see `Normal_smoothing`
+
+  /// A stage of the computation.
+  struct Stage {
+    std::string name;  ///< what is done
+    double seconds;    ///< how long it took, or was waited for where others were done at the same time
+  };
+  std::vector<Stage> stages;  ///< in the order in which they happen
+};
+
+/// All levels of a segmentation, and a report of how it was made.
+///
+/// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
+template <class FaceListGraph>
+class Random_walk_hierarchy : public Segment_hierarchy<FaceListGraph> {
+ public:
+  Random_walk_hierarchy() = default;
+  /// Puts the two together.
+  Random_walk_hierarchy(Segment_hierarchy<FaceListGraph> hierarchy, Segmentation_report report)
+      : Segment_hierarchy<FaceListGraph>(std::move(hierarchy)), report_(std::move(report)) {}
+
+  /// How the segmentation was made.
+  const Segmentation_report& report() const { return report_; }
+
+ private:
+  Segmentation_report report_;
+};
+
+namespace internal {
+
+/// Notes how long the stages of a computation take.
+class Stage_clock {
+ public:
+  explicit Stage_clock(std::vector<Segmentation_report::Stage>& stages) : stages_(stages) {}
+
+  /// Ends a stage, which began where the one before it ended.
+  void note(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+    last_ = now;
+  }
+
+ private:
+  std::vector<Segmentation_report::Stage>& stages_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace internal
+}  // namespace RW_segmentation
+
+#endif

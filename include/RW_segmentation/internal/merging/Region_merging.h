@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_MERGING_REGION_MERGING_H
+#define RW_SEGMENTATION_INTERNAL_MERGING_REGION_MERGING_H
+
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Merge_tree.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Region_boundary.h>
+
+#include <boost/heap/d_ary_heap.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+template <class Cost, class Mesh, class = void>
+struct Is_merge_cost : std::false_type {};
+template <class Cost, class Mesh>
+struct Is_merge_cost<
+    Cost, Mesh,
+    std::void_t<typename Cost::Region,
+                decltype(typename Cost::Region(
+                    std::declval<const Cost&>().region(std::declval<const Mesh&>(), Dual_mesh::Index()))),
+                decltype(std::declval<const Cost&>().join(std::declval<typename Cost::Region&>(),
+                                                          std::declval<const typename Cost::Region&>())),
+                decltype(static_cast<double>(std::declval<const Cost&>()(
+                    std::declval<const typename Cost::Region&>(), std::declval<const typename Cost::Region&>(),
+                    std::declval<const Region_boundary&>())))>> : std::true_type {};
+
+/// Whether it is a `MergeCost` for a kind of mesh.
+template <class Cost, class Mesh>
+constexpr bool is_merge_cost = Is_merge_cost<Cost, Mesh>::value;
+
+/// The edges between two neighbouring regions, the lower region first.
+struct Boundary_of_regions {
+  std::array<Dual_mesh::Index, 2> regions;
+  Edge_sums common;
+};
+
+/// The boundaries between neighbouring regions, sorted by their regions.
+/// Regions are no neighbours across a wall, which counts as little as the border of the mesh.
+inline std::vector<Boundary_of_regions> region_boundaries(const Dual_mesh& mesh,
+                                                          const std::vector<std::size_t>& region_of_face,
+                                                          const std::vector<double>& difference) {
+  using Index = Dual_mesh::Index;
+  struct Crossing {
+    std::array<Index, 2> regions;
+    Index edge;
+    bool operator<(const Crossing& other) const {
+      return std::tie(regions, edge) < std::tie(other.regions, other.edge);
+    }
+  };
+  std::vector<Crossing> crossings;
+  for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto [f, g] = mesh.graph().faces_of(e);
+    const auto a = static_cast<Index>(region_of_face[f]), b = static_cast<Index>(region_of_face[g]);
+    if (a != b && !mesh.is_wall(e)) crossings.push_back({{std::min(a, b), std::max(a, b)}, e});
+  }
+  std::sort(crossings.begin(), crossings.end());
+
+  const double unit = mesh.length_unit();
+  std::vector<Boundary_of_regions> boundaries;
+  for (const auto& [regions, e] : crossings) {
+    if (boundaries.empty() || boundaries.back().regions != regions) boundaries.push_back({regions, {}});
+    const double length = mesh.edge_length(e) / unit;
+    boundaries.back().common += {length, length * difference[e]};
+  }
+  return boundaries;
+}
+
+/// Merges neighbouring regions, cheapest first, until no two neighbours are left.
+///
+/// Each merge visits the neighbours of the two regions and no others. With equal costs the pair that came first in the
+/// order of the boundaries is merged first.
+template <class MergeCost>
+class Region_merging {
+ public:
+  using Index = Dual_mesh::Index;
+  using Region = typename MergeCost::Region;
+
+  Region_merging(std::vector<Region> regions, std::vector<Boundary_of_regions> boundaries, const MergeCost& cost)
+      : cost_(cost),
+        region_(std::move(regions)),
+        outline_(region_.size()),
+        boundaries_of_(region_.size()),
+        boundary_to_(region_.size(), none),
+        boundary_(std::move(boundaries)) {
+    for (Index b = 0; b < boundary_.size(); ++b)
+      for (const Index r : boundary_[b].regions) {
+        outline_[r] += boundary_[b].common;
+        boundaries_of_[r].push_back(b);
+      }
+    place_.reserve(boundary_.size());
+    for (Index b = 0; b < boundary_.size(); ++b) place_.push_back(queue_.push({cost_of(b), b}));
+  }
+
+  /// Merges to the end, once.
+  Merge_tree run(const Progress& progress) {
+    constexpr std::size_t merges_between_reports = 100;
+    std::vector<std::size_t> number(region_.size());  // of each region in the tree
+    std::iota(number.begin(), number.end(), std::size_t(0));
+    std::vector<Merge_tree::Merge> merges;
+    while (!queue_.empty()) {
+      if (merges.size() % merges_between_reports == 0)
+        progress(static_cast<double>(merges.size()) / static_cast<double>(region_.size()));
+      const auto [cost, boundary] = queue_.top();
+      const auto [kept, absorbed] = boundary_[boundary].regions;
+      const auto [first, second] = std::minmax(number[kept], number[absorbed]);
+      merges.push_back({first, second, cost});
+      number[kept] = number.size() - 1 + merges.size();
+      join(boundary);
+    }
+    return Merge_tree(region_.size(), std::move(merges));
+  }
+
+ private:
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  struct Candidate {
+    double cost;
+    Index boundary;
+    bool operator<(const Candidate& other) const {  // the heap's top is the largest
+      return std::tie(other.cost, other.boundary) < std::tie(cost, boundary);
+    }
+  };
+  using Queue = boost::heap::d_ary_heap<Candidate, boost::heap::arity<4>, boost::heap::mutable_<true>>;
+
+  double cost_of(Index boundary) const {
+    const auto& [regions, common] = boundary_[boundary];
+    // Regions that touch only along edges without length come last, and no threshold joins them.
+    if (!(common.length > 0)) return std::numeric_limits<double>::infinity();
+    const Edge_sums &a = outline_[regions[0]], &b = outline_[regions[1]];
+    const Edge_sums whole = {a.length + (b.length - common.length), a.difference + (b.difference - common.difference)};
+    const double cost = cost_(region_[regions[0]], region_[regions[1]], Region_boundary{common, whole});
+    if (std::isnan(cost)) throw std::invalid_argument("the merge cost of two regions is NaN");
+    return cost;
+  }
+
+  Index neighbour_of(Index region, Index boundary) const {
+    const auto [a, b] = boundary_[boundary].regions;
+    return a == region ? b : a;
+  }
+
+  /// The lists of the two regions forget the boundary when they are next read.
+  void remove(Index boundary) {
+    queue_.erase(place_[boundary]);
+    boundary_[boundary].regions = {none, none};
+  }
+  bool is_removed(Index boundary) const { return boundary_[boundary].regions[0] == none; }
+
+  /// Makes one region of the two beside a boundary.
+  void join(Index joint) {
+    const auto [kept, absorbed] = boundary_[joint].regions;
+    remove(joint);
+    cost_.join(region_[kept], region_[absorbed]);
+
+    std::vector<Index> joined;
+    for (const Index b : boundaries_of_[kept]) {
+      if (is_removed(b)) continue;
+      boundary_to_[neighbour_of(kept, b)] = b;
+      joined.push_back(b);
+    }
+    for (const Index b : boundaries_of_[absorbed]) {
+      if (is_removed(b)) continue;
+      const Index neighbour = neighbour_of(absorbed, b), parallel = boundary_to_[neighbour];
+      if (parallel != none) {
+        boundary_[parallel].common += boundary_[b].common;
+        remove(b);
+      } else {
+        boundary_[b].regions = {std::min(kept, neighbour), std::max(kept, neighbour)};
+        joined.push_back(b);
+      }
+    }
+
+    outline_[kept] = {};
+    for (const Index b : joined) outline_[kept] += boundary_[b].common;
+    for (const Index b : joined) {
+      boundary_to_[neighbour_of(kept, b)] = none;
+      queue_.update(place_[b], {cost_of(b), b});
+    }
+    boundaries_of_[kept] = std::move(joined);
+    boundaries_of_[absorbed].clear();
+  }
+
+  const MergeCost& cost_;
+  std::vector<Region> region_;
+  std::vector<Edge_sums> outline_;                 // of each region
+  std::vector<std::vector<Index>> boundaries_of_;  // each region
+  std::vector<Index> boundary_to_;                 // each neighbour of the region at hand
+  std::vector<Boundary_of_regions> boundary_;
+  Queue queue_;
+  std::vector<typename Queue::handle_type> place_;  // of each boundary in the queue
+};
+
+/// The regions of fragments, made by joining those of their faces.
+/// \param region_of_face a function from a face to its region
+template <class MergeCost, class RegionOfFace>
+std::vector<typename MergeCost::Region> join_faces(const std::vector<std::size_t>& fragment_of_face,
+                                                   std::size_t number_of_fragments, const MergeCost& cost,
+                                                   const RegionOfFace& region_of_face) {
+  std::vector<typename MergeCost::Region> regions(number_of_fragments);
+  std::vector<char> is_begun(number_of_fragments, false);
+  for (std::size_t f = 0; f < fragment_of_face.size(); ++f) {
+    const std::size_t fragment = fragment_of_face[f];
+    if (is_begun[fragment])
+      cost.join(regions[fragment], region_of_face(static_cast<Dual_mesh::Index>(f)));
+    else
+      regions[fragment] = region_of_face(static_cast<Dual_mesh::Index>(f));
+    is_begun[fragment] = true;
+  }
+  return regions;
+}
+
+/// Merges fragments to the end.
+///
+/// \param mesh a `Dual_mesh`, or a `Dual_mesh_of` for costs that ask for descriptors
+/// \param fragment_of_face numbers from 0 to `number_of_fragments` - 1
+/// \param difference in the order of the edges
+template <class Mesh, class MergeCost>
+Merge_tree merge_fragments(const Mesh& mesh, const std::vector<std::size_t>& fragment_of_face,
+                           std::size_t number_of_fragments, const std::vector<double>& difference,
+                           const MergeCost& cost, const Progress& progress) {
+  auto regions =
+      join_faces(fragment_of_face, number_of_fragments, cost, [&](Dual_mesh::Index f) { return cost.region(mesh, f); });
+  return Region_merging<MergeCost>(std::move(regions), region_boundaries(mesh, fragment_of_face, difference), cost)
+      .run(progress);
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

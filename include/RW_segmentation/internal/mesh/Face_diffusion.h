@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_MESH_FACE_DIFFUSION_H
+#define RW_SEGMENTATION_INTERNAL_MESH_FACE_DIFFUSION_H
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Progress.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// One implicit step of diffusion of vectors over the faces: (diag(A) + t Lap) X = diag(A) X0, where Lap has the weight
+/// |e| / l for each edge, l = 2/3 (Ai + Aj) / |e| being the distance of the faces' centres.
+///
+/// Solved by conjugate gradients for the three coordinates at once. The preconditioner is a multigrid cycle: a sweep of
+/// Gauss-Seidel forward and one backward over the faces, between them the same for aggregates of about four faces, for
+/// aggregates of those, and so on until mass outweighs diffusion. The number of iterations hardly grows with the mesh.
+/// Only the correction to a start is computed, which is why single precision will do.
+class Face_diffusion {
+ public:
+  /// \param mesh with a face that has an area
+  /// \param time the square of the length over which vectors are averaged, in the unit box
+  /// Complexity: linear.
+  Face_diffusion(const Dual_mesh& mesh, double time) {
+    levels_.push_back(finest_level(mesh, time));
+    while (is_diffusive(levels_.back())) levels_.push_back(coarser_level(levels_.back()));
+  }
+
+  /// Of the faces and of aggregates of them. Each level has half as many nodes as the one before or less.
+  std::size_t number_of_levels() const { return levels_.size(); }
+
+  /// Improves `x` until the root of the mean square over the faces of its error, relative to the length of each vector,
+  /// is below `tolerance`.
+  /// \throws Cancelled
+  void solve(const std::vector<Eigen::Vector3d>& x0, std::vector<Eigen::Vector3d>& x, double tolerance,
+             const Progress& progress) {
+    const std::size_t n = x.size();
+    Level& level = levels_.front();
+    Block& residual = level.right;
+    const Block& preconditioned = level.solution;
+    set_residual(x0, x, level);
+    Block correction(n, Vector::Zero()), direction(n, Vector::Zero()), image(n);
+    Sums previous = Sums::Ones();
+    double first = 0;
+    for (int iteration = 0;; ++iteration) {
+      cycle(0);
+      // What the cycle would change is about the error.
+      const double error = relative_change(x, correction, preconditioned);
+      if (error <= tolerance) break;
+      if (iteration == 0) first = error;
+      if (!(iteration < 1000) || !std::isfinite(error)) throw std::runtime_error("Face_diffusion: no convergence");
+      progress(std::clamp(std::log(first / error) / std::log(first / tolerance), 0., 1.));
+
+      const Sums energy = dot(residual, preconditioned);
+      const Vector beta = quotient(energy, previous);
+      for (std::size_t i = 0; i < n; ++i) direction[i] = preconditioned[i] + beta.cwiseProduct(direction[i]);
+      apply(level, direction, image);
+      const Vector alpha = quotient(energy, dot(direction, image));
+      for (std::size_t i = 0; i < n; ++i) {
+        correction[i] += alpha.cwiseProduct(direction[i]);
+        residual[i] -= alpha.cwiseProduct(image[i]);
+      }
+      previous = energy;
+    }
+    for (std::size_t i = 0; i < n; ++i) x[i] += (correction[i] + preconditioned[i]).head<3>().cast<double>();
+  }
+
+ private:
+  using Index = Dual_graph::Index;
+  using Vector = Eigen::Vector4f;  // three coordinates, padded to a register
+  using Block = std::vector<Vector>;
+  using Sums = Eigen::Array4d;
+
+  struct Link {
+    Index to;
+    float weight;
+  };
+
+  /// The faces, or aggregates of them, with their links as compressed rows.
+  struct Level {
+    std::vector<Index> row;
+    std::vector<Link> links;
+    std::vector<float> mass;
+    std::vector<float> inverse_diagonal;  ///< 1 / (mass + sum of weights)
+    std::vector<Index> aggregate;         ///< the node of the coarser level
+    Block right, solution;
+
+    std::size_t size() const { return mass.size(); }
+
+    void resize(std::size_t nodes) {
+      row.resize(nodes + 1);
+      mass.resize(nodes);
+      inverse_diagonal.resize(nodes);
+      right.resize(nodes);
+      solution.resize(nodes);
+    }
+
+    /// Closes the row of a node, whose links are the last ones.
+    void close_row(std::size_t node, float node_mass) {
+      float diagonal = node_mass;
+      for (std::size_t k = row[node]; k < links.size(); ++k) diagonal += links[k].weight;
+      row[node + 1] = static_cast<Index>(links.size());
+      mass[node] = node_mass;
+      inverse_diagonal[node] = 1 / diagonal;
+    }
+  };
+
+  static Level finest_level(const Dual_mesh& mesh, double time) {
+    const Dual_graph& graph = mesh.graph();
+    const std::vector<double>& area = mesh.areas();
+    const double mean_area = mesh.total_area() / static_cast<double>(area.size());
+    // The floors keep the system positive definite, and slivers from tearing it apart.
+    const double smallest_area = 1e-4 * mean_area;
+    const double smallest_length = 1e-4 * std::sqrt(mean_area);
+
+    // In units of the mean area.
+    std::vector<float> weight(graph.number_of_edges());
+    for (std::size_t e = 0; e < weight.size(); ++e) {
+      const auto [i, j] = graph.faces_of(static_cast<Index>(e));
+      const double length = mesh.edge_length(static_cast<Dual_mesh::Index>(e));
+      const double distance = std::max(2. / 3 * (area[i] + area[j]), smallest_area) / std::max(length, smallest_length);
+      weight[e] = static_cast<float>(time / mean_area * length / distance);
+    }
+    Level level;
+    level.resize(area.size());
+    level.links.reserve(2 * weight.size());
+    for (std::size_t i = 0; i < area.size(); ++i) {
+      for (const auto [j, e] : graph.neighbours(static_cast<Index>(i))) level.links.push_back({j, weight[e]});
+      level.close_row(i, static_cast<float>(std::max(area[i], smallest_area) / mean_area));
+    }
+    return level;
+  }
+
+  /// Whether two sweeps would leave much undone on some part of the mesh, however small.
+  static bool is_diffusive(const Level& level) {
+    for (std::size_t i = 0; i < level.size(); ++i)
+      if (level.mass[i] * level.inverse_diagonal[i] < 0.3F) return true;
+    return false;
+  }
+
+  /// Groups of strongly linked nodes: `members[begin[a]]` .. `members[begin[a + 1] - 1]`.
+  struct Aggregates {
+    std::vector<Index> members, begin;
+  };
+
+  /// Grows each aggregate from the first node that has none to four nodes at most. A node that finds none to grow by
+  /// joins the aggregate of its strongest neighbour, lest a node with many weak links keeps them all on every level.
+  static Aggregates aggregate(Level& level) {
+    constexpr std::size_t largest = 4;
+    constexpr float strong = 0.25F;  // relative to the strongest link of the first node
+    constexpr Index none = std::numeric_limits<Index>::max();
+    level.aggregate.assign(level.size(), none);
+    Index number = 0;
+    std::vector<Index> grown;
+    for (std::size_t root = 0; root < level.size(); ++root) {
+      if (level.aggregate[root] != none) continue;
+      grown.assign(1, static_cast<Index>(root));
+      level.aggregate[root] = number;
+      Link strongest = {none, 0};  // links over edges without length have no weight
+      for (std::size_t k = level.row[root]; k < level.row[root + 1]; ++k)
+        if (level.links[k].weight > strongest.weight) strongest = level.links[k];
+      for (std::size_t m = 0; m < grown.size(); ++m)
+        for (std::size_t k = level.row[grown[m]]; k < level.row[grown[m] + std::size_t(1)]; ++k) {
+          const auto [to, weight] = level.links[k];
+          if (grown.size() == largest || level.aggregate[to] != none || !(weight > strong * strongest.weight)) continue;
+          level.aggregate[to] = number;
+          grown.push_back(to);
+        }
+      if (grown.size() == 1 && strongest.to != none)
+        level.aggregate[root] = level.aggregate[strongest.to];
+      else
+        ++number;
+    }
+    return members_of(level.aggregate, number);
+  }
+
+  static Aggregates members_of(const std::vector<Index>& aggregate, std::size_t number) {
+    Aggregates result;
+    result.begin.assign(number + 1, 0);
+    result.members.resize(aggregate.size());
+    for (const Index a : aggregate) ++result.begin[a + std::size_t(1)];
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    std::vector<Index> next = result.begin;
+    for (std::size_t i = 0; i < aggregate.size(); ++i) result.members[next[aggregate[i]]++] = static_cast<Index>(i);
+    return result;
+  }
+
+  /// The level whose nodes are aggregates of `fine`: masses and parallel links add up.
+  static Level coarser_level(Level& fine) {
+    const Aggregates aggregates = aggregate(fine);
+    const std::size_t n = aggregates.begin.size() - 1;
+    Level coarse;
+    coarse.resize(n);
+    coarse.links.reserve(fine.links.size() / 2);
+    std::vector<std::size_t> behind(n, 0);  // the link to a node, if it lies in the row at hand
+    for (std::size_t node = 0; node < n; ++node) {
+      const std::size_t row = coarse.links.size();
+      float mass = 0;
+      for (std::size_t m = aggregates.begin[node]; m < aggregates.begin[node + 1]; ++m) {
+        const std::size_t member = aggregates.members[m];
+        mass += fine.mass[member];
+        for (std::size_t k = fine.row[member]; k < fine.row[member + 1]; ++k) {
+          const Index to = fine.aggregate[fine.links[k].to];
+          if (to == node) continue;
+          if (behind[to] <= row) {
+            coarse.links.push_back({to, 0});
+            behind[to] = coarse.links.size();
+          }
+          coarse.links[behind[to] - 1].weight += fine.links[k].weight;
+        }
+      }
+      coarse.close_row(node, mass);
+    }
+    return coarse;
+  }
+
+  /// Sets the right side to the residual diag(A) (x0 - x) - t Lap x.
+  static void set_residual(const std::vector<Eigen::Vector3d>& x0, const std::vector<Eigen::Vector3d>& x,
+                           Level& level) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Eigen::Vector3d sum = level.mass[i] * (x0[i] - x[i]);
+      for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
+        sum += level.links[k].weight * (x[level.links[k].to] - x[i]);
+      level.right[i] << sum.cast<float>(), 0;
+    }
+  }
+
+  /// `y` = (diag(A) + t Lap) `x`, by differences, so that no stiff link cancels what the others say.
+  static void apply(const Level& level, const Block& x, Block& y) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Vector sum = level.mass[i] * x[i];
+      for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
+        sum += level.links[k].weight * (x[i] - x[level.links[k].to]);
+      y[i] = sum;
+    }
+  }
+
+  /// Approximately solves the system of a level for `right`, by an operation that is symmetric.
+  void cycle(std::size_t depth) {
+    Level& level = levels_[depth];
+    Block& x = level.solution;
+    const std::size_t n = level.size();
+    const auto relax = [&](std::size_t i) {
+      Vector sum = level.right[i];
+      for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k) sum += level.links[k].weight * x[level.links[k].to];
+      x[i] = level.inverse_diagonal[i] * sum;
+    };
+
+    std::fill(x.begin(), x.end(), Vector::Zero());
+    for (std::size_t i = 0; i < n; ++i) relax(i);
+    if (depth + 1 < levels_.size()) {
+      Level& coarse = levels_[depth + 1];
+      std::fill(coarse.right.begin(), coarse.right.end(), Vector::Zero());
+      for (std::size_t i = 0; i < n; ++i) {
+        Vector residual = level.right[i] - level.mass[i] * x[i];
+        for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
+          residual += level.links[k].weight * (x[level.links[k].to] - x[i]);
+        coarse.right[level.aggregate[i]] += residual;
+      }
+      cycle(depth + 1);
+      for (std::size_t i = 0; i < n; ++i) x[i] += coarse.solution[level.aggregate[i]];
+    }
+    for (std::size_t i = n; i-- > 0;) relax(i);
+  }
+
+  /// The root mean square of |change| / |x + correction|, each at most 1.
+  static double relative_change(const std::vector<Eigen::Vector3d>& x, const Block& correction, const Block& change) {
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Eigen::Vector3f vector = x[i].cast<float>() + correction[i].head<3>();
+      sum += std::min(1.F, change[i].squaredNorm() / std::max(vector.squaredNorm(), 1e-30F));
+    }
+    return std::sqrt(sum / static_cast<double>(x.size()));
+  }
+
+  /// The scalar products of the coordinates, in double precision from block to block.
+  static Sums dot(const Block& x, const Block& y) {
+    constexpr std::size_t block = 1024;
+    Sums total = Sums::Zero();
+    for (std::size_t begin = 0; begin < x.size(); begin += block) {
+      Vector sum = Vector::Zero();
+      for (std::size_t i = begin; i < std::min(begin + block, x.size()); ++i) sum += x[i].cwiseProduct(y[i]);
+      total += sum.cast<double>().array();
+    }
+    return total;
+  }
+
+  /// 0 for a coordinate that is solved exactly.
+  static Vector quotient(const Sums& numerator, const Sums& denominator) {
+    return (denominator > 0).select(numerator / denominator, 0).matrix().cast<float>();
+  }
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_FACE_PATCHES_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_FACE_PATCHES_H
+
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Surface_samples.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Collects connected faces of a mesh that are free, which are all at first.
+class Face_patches {
+ public:
+  using Index = Dual_mesh::Index;
+
+  /// Connected faces, and their vertices, in the order in which they were reached.
+  struct Patch {
+    std::vector<Index> faces, vertices;
+  };
+
+  /// Keeps a reference to the mesh. Neighbourhoods end at no edge but walls.
+  explicit Face_patches(const Dual_mesh& mesh)
+      : Face_patches(mesh, std::vector<double>(mesh.number_of_edges(), 0), [](Index) { return 0; }) {}
+
+  /// As above, but neighbourhoods end at sharp edges.
+  /// \param angles of the edges
+  /// \param sharp_angle a function from an edge to the angle above which it is sharp
+  template <class Sharp_angle>
+  Face_patches(const Dual_mesh& mesh, std::vector<double> angles, const Sharp_angle& sharp_angle)
+      : mesh_(mesh),
+        angle_(std::move(angles)),
+        is_taken_(mesh.number_of_faces(), false),
+        face_mark_(mesh.number_of_faces(), 0),
+        vertex_mark_(mesh.number_of_vertices(), 0) {
+    is_sharp_.reserve(angle_.size());
+    for (Index e = 0; e < angle_.size(); ++e) is_sharp_.push_back(mesh.is_wall(e) || angle_[e] > sharp_angle(e));
+  }
+
+  bool is_free(Index face) const { return !is_taken_[face]; }
+  void take(const Patch& patch) {
+    for (const Index f : patch.faces) is_taken_[f] = true;
+  }
+
+  /// Free faces about a face, breadth first, not across sharp edges, until they have so many vertices.
+  Patch neighbourhood(Index seed, std::size_t vertices) {
+    Patch patch;
+    start(patch);
+    add(patch, seed);
+    for (std::size_t i = 0; i < patch.faces.size(); ++i)
+      for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i])) {
+        if (patch.vertices.size() >= vertices) return patch;
+        if (leads_on(g, e)) add(patch, g);
+      }
+    return patch;
+  }
+
+  /// As above, but across the flattest edges first.
+  Patch flattest_neighbourhood(Index seed, std::size_t vertices) {
+    using Way = std::pair<double, Index>;  // its edge's angle, and where it leads
+    std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
+    Patch patch;
+    start(patch);
+    ways.emplace(0, seed);
+    while (!ways.empty() && patch.vertices.size() < vertices) {
+      const Index f = ways.top().second;
+      ways.pop();
+      if (is_marked(f)) continue;
+      add(patch, f);
+      for (const auto& [g, e] : mesh_.graph().neighbours(f))
+        if (leads_on(g, e)) ways.emplace(angle_[e], g);
+    }
+    return patch;
+  }
+
+  /// The free faces that a predicate holds for and that are connected with the seed by such, sharp edges or not, until
+  /// they have so many vertices.
+  template <class Predicate>
+  void flood(Index seed, const Predicate& holds, std::size_t most_vertices, Patch& patch) {
+    start(patch);
+    if (!holds(seed)) return;
+    add(patch, seed);
+    for (std::size_t i = 0; i < patch.faces.size() && patch.vertices.size() < most_vertices; ++i)
+      for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i]))
+        if (!is_marked(g) && is_free(g) && !mesh_.is_wall(e) && holds(g)) add(patch, g);
+  }
+
+  /// The patch of given faces.
+  Patch of(const std::vector<Index>& faces) {
+    Patch patch;
+    start(patch);
+    for (const Index f : faces) add(patch, f);
+    return patch;
+  }
+
+  /// The free faces that a patch continues into across edges that are not sharp, once for each of these edges.
+  std::vector<Index> faces_beside(const Patch& patch) {
+    mark(patch);
+    std::vector<Index> beside;
+    for (const Index f : patch.faces)
+      for (const auto& [g, e] : mesh_.graph().neighbours(f))
+        if (leads_on(g, e)) beside.push_back(g);
+    return beside;
+  }
+
+  /// Marks the faces of a patch, until the next patch is marked or collected.
+  void mark(const Patch& patch) {
+    ++mark_;
+    for (const Index f : patch.faces) face_mark_[f] = mark_;
+  }
+  bool is_marked(Index face) const { return face_mark_[face] == mark_; }
+
+  /// Some of the vertices of a patch, and of its faces' normals. They stay until the next call.
+  const Surface_samples& samples_of(const Patch& patch) {
+    samples_.clear();
+    for (std::size_t i = 0, step = step_of(patch.vertices); i < patch.vertices.size(); i += step)
+      samples_.points.push_back(mesh_.point(patch.vertices[i]));
+    for (std::size_t i = 0, step = step_of(patch.faces); i < patch.faces.size(); i += step) {
+      const Index f = patch.faces[i];
+      if (mesh_.shape_normals()[f].isZero()) continue;
+      samples_.normal_points.push_back(mesh_.centroid(f));
+      samples_.normals.push_back(mesh_.shape_normals()[f]);
+    }
+    return samples_;
+  }
+
+ private:
+  void start(Patch& patch) {
+    ++mark_;
+    patch.faces.clear();
+    patch.vertices.clear();
+  }
+  void add(Patch& patch, Index f) {
+    face_mark_[f] = mark_;
+    patch.faces.push_back(f);
+    for (const Index v : mesh_.corners(f))
+      if (vertex_mark_[v] != mark_) {
+        vertex_mark_[v] = mark_;
+        patch.vertices.push_back(v);
+      }
+  }
+  bool leads_on(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !is_sharp_[edge]; }
+
+  static std::size_t step_of(const std::vector<Index>& all) {
+    constexpr std::size_t samples = 80;  // up to twice as many
+    return std::max<std::size_t>(1, all.size() / samples);
+  }
+
+  const Dual_mesh& mesh_;
+  std::vector<double> angle_;   // of each edge
+  std::vector<char> is_sharp_;  // each edge
+  std::vector<char> is_taken_;  // each face
+  std::vector<std::uint32_t> face_mark_, vertex_mark_;
+  std::uint32_t mark_ = 0;  // of the patch at hand
+  Surface_samples samples_;
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// The sum of the squared distances of points from a surface.
+template <class Type>
+double squared_distances(const Type& surface, const std::vector<Eigen::Vector3d>& points) {
+  double sum = 0;
+  for (const Eigen::Vector3d& p : points) {
+    const double d = surface.distance(p);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Moves a surface until the distances of points from it have the least squares: damped Gauss-Newton steps
+/// (Levenberg-Marquardt) over the least number of unknowns.
+///
+/// \tparam Type a type of surface, see `Surface_types`
+template <class Type>
+class Least_squares_surface {
+ public:
+  /// \param largest_residual that is of use; what promises none near it is left where it is
+  Least_squares_surface(const Type& surface, const std::vector<Eigen::Vector3d>& points,
+                        double largest_residual = std::numeric_limits<double>::infinity())
+      : surface_(surface), points_(points), sum_(squared_distances(surface, points)) {
+    constexpr double out_of_reach = 10;  // largest residuals: linearised steps shrink residuals by less when they fail
+    hopeless_squares_ = out_of_reach * out_of_reach * largest_residual * largest_residual * number_of_points();
+    if constexpr (!Type::first_guess_is_closest) fit();
+  }
+
+  const Type& surface() const { return surface_; }
+  /// Root mean square distance of the points.
+  double residual() const { return std::sqrt(sum_ / number_of_points()); }
+
+ private:
+  static constexpr int unknowns = Type::degrees_of_freedom;
+  using Vector = Eigen::Matrix<double, unknowns, 1>;
+  using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
+
+  double number_of_points() const { return static_cast<double>(points_.size()); }
+
+  void fit() {
+    constexpr int most_steps = 20;
+    constexpr double least_progress = 1e-3;  // of a step, as a part of the squares
+    // Residuals below a ten-billionth of the mesh: nothing is left to gain.
+    const double exact = 1e-20 * number_of_points();
+    for (int step = 0; step < most_steps && sum_ > exact; ++step) {
+      const double before = sum_;
+      if (!descend() || before - sum_ < least_progress * before) break;
+    }
+  }
+
+  /// Takes the step with the least damping that lessens the squares. False if there is none, or the linearised distances
+  /// hardly lessen and stay too large.
+  bool descend() {
+    constexpr int most_trials = 4;
+    constexpr double damping_factor = 10, hardly_less = 0.8;
+    constexpr double determined = 1e-12;  // of the largest diagonal element, lest flat points make the matrix singular
+    const typename Type::Frame frame(surface_);
+    linearise(frame);
+    const double largest = hessian_.diagonal().maxCoeff();
+    for (int trial = 0; trial < most_trials; ++trial, damping_ *= damping_factor) {
+      Matrix damped = hessian_;
+      damped.diagonal() *= 1 + damping_;
+      damped.diagonal().array() += determined * largest;
+      const Vector step = damped.template selfadjointView<Eigen::Lower>().ldlt().solve(-gradient_);
+      if (const double linear = squares_after(step); linear > hopeless_squares_ && linear > hardly_less * sum_)
+        return false;
+      const Type moved = surface_.moved(step, frame);
+      const double squares_there = squared_distances(moved, points_);
+      if (squares_there < sum_) {
+        surface_ = moved;
+        sum_ = squares_there;
+        damping_ /= damping_factor;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The normal equations at the present surface.
+  void linearise(const typename Type::Frame& frame) {
+    hessian_.setZero();
+    gradient_.setZero();
+    Vector row;
+    for (const Eigen::Vector3d& p : points_) {
+      const double distance = surface_.derivatives(p, frame, row);
+      for (int j = 0; j < unknowns; ++j)
+        for (int i = j; i < unknowns; ++i) hessian_(i, j) += row[i] * row[j];
+      gradient_ += distance * row;
+    }
+  }
+
+  /// The squares that the linearised distances have after a step.
+  double squares_after(const Vector& step) const {
+    const Vector change = hessian_.template selfadjointView<Eigen::Lower>() * step;
+    return sum_ + step.dot(2 * gradient_ + change);
+  }
+
+  Type surface_;
+  const std::vector<Eigen::Vector3d>& points_;
+  double sum_;  // of the squared distances
+  double hopeless_squares_;
+  Matrix hessian_;  // its lower half
+  Vector gradient_;
+  double damping_ = 1e-4;  // of the first step, as a part of the diagonal: all but none
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_GROWING_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_GROWING_H
+
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/surfaces/Face_patches.h>
+#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+
+#include <boost/container_hash/hash.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Faces that lie on one analytic surface each.
+struct Analytic_regions {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  std::vector<std::size_t> region_of_face;  ///< `none` for the remainder
+  std::vector<Analytic_surface> surfaces;   ///< of each region
+};
+
+/// Cuts a mesh into connected regions of faces that lie on one analytic surface each, and the remainder.
+///
+/// A surface is fitted to the neighbourhood of a face, flooded as far as vertices and normals agree, fitted to what was
+/// flooded, and so on, until it grows no more. Of all types the one that explains most vertices is kept. Regions that
+/// explain many vertices are taken first; `gain` is the number of vertices beyond those that determine the surface.
+class Surface_growing {
+ public:
+  using Index = Dual_mesh::Index;
+
+  /// Keeps references to both.
+  Surface_growing(const Dual_mesh& mesh, const Surface_tolerance& tolerance)
+      : mesh_(mesh),
+        tolerance_(tolerance),
+        patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
+        failures_(mesh.number_of_faces()),
+        possible_gain_(mesh.number_of_faces(), std::numeric_limits<double>::infinity()),
+        tries_(mesh.number_of_faces(), 0) {
+    regions_.region_of_face.assign(mesh.number_of_faces(), Analytic_regions::none);
+  }
+
+  /// Grows all regions, once.
+  Analytic_regions regions(const Progress& progress) {
+    const std::vector<Index> order = largest_first();
+    const std::vector<Pass> all = passes();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto number = static_cast<double>(k), passes = static_cast<double>(all.size());
+      run(all[k], order, progress.part(number / passes, (number + 1) / passes));
+    }
+    return std::move(regions_);
+  }
+
+ private:
+  using Patch = Face_patches::Patch;
+
+  struct Region {
+    Patch patch;
+    Analytic_surface surface;
+    double gain = -std::numeric_limits<double>::infinity();
+  };
+
+  /// What the regions about a face gained that were not taken.
+  struct Failure {
+    std::size_t neighbourhood = 0;  // a hash
+    double gain = std::numeric_limits<double>::infinity();
+  };
+
+  /// Which regions are taken: those that gain enough, about round neighbourhoods of so many vertices at least or along
+  /// narrow ones, too.
+  struct Pass {
+    double least_gain;
+    std::size_t smallest_start = 0;  // smaller ones happen to lie on surfaces all over a free form
+    bool along_strips = false;
+  };
+
+  std::vector<Index> largest_first() const {
+    std::vector<Index> order(mesh_.number_of_faces());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::stable_sort(order.begin(), order.end(), [&](Index f, Index g) { return mesh_.area(f) > mesh_.area(g); });
+    return order;
+  }
+
+  /// By chance, noisy vertices lie on a surface that was fitted to few of them, and pieces of a large surface on others:
+  /// the largest come first.
+  std::vector<Pass> passes() const {
+    if (tolerance_.is_noisy()) return {{1000}, {400}, {160}, {64}, {24}};
+    return {{64}, {12}, {12, 0, true}, {3, 10}};
+  }
+
+  /// Numbers of vertices of the neighbourhoods that surfaces are fitted to first.
+  const std::vector<std::size_t>& first_sizes() const {
+    static const std::vector<std::size_t> clean = {7, 10, 12, 36}, noisy = {18, 54, 162};  // few mislead under noise
+    return tolerance_.is_noisy() ? noisy : clean;
+  }
+
+  void run(const Pass& pass, const std::vector<Index>& order, const Progress& progress) {
+    constexpr std::size_t between_reports = 1000;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i % between_reports == 0) progress(static_cast<double>(i) / static_cast<double>(order.size()));
+      const Index seed = order[i];
+      if (!patches_.is_free(seed) || normal(seed).isZero() || possible_gain_[seed] < pass.least_gain) continue;
+      Region region = best_region(seed, pass);
+      if (region.gain < pass.least_gain) {
+        if (tolerance_.is_noisy()) expect_no_more(seed, region);
+        continue;
+      }
+      if (!tolerance_.is_noisy()) prefer_rivals(region, pass);
+      patches_.take(region.patch);
+      for (const Index f : region.patch.faces) regions_.region_of_face[f] = regions_.surfaces.size();
+      regions_.surfaces.push_back(region.surface);
+    }
+  }
+
+  const Eigen::Vector3d& normal(Index face) const { return mesh_.shape_normals()[face]; }
+
+  // ---- One region ----
+
+  /// The region about a face that explains most.
+  Region best_region(Index seed, const Pass& pass) {
+    const bool is_noisy = tolerance_.is_noisy();  // all sizes are tried then
+    const std::vector<std::size_t>& sizes = first_sizes();
+    Region best;
+    const std::size_t largest = is_noisy ? 0 : hash_of(patches_.neighbourhood(seed, sizes.back()));
+    if (is_noisy || !has_failed(seed, largest, pass.least_gain)) {
+      for (const std::size_t size : sizes) {
+        if (size < pass.smallest_start) continue;
+        const Patch start = patches_.neighbourhood(seed, size);
+        improve(best, seed, start, pass.least_gain);
+        if (best.gain >= pass.least_gain && !is_noisy) return best;
+        if (start.vertices.size() < size) break;
+      }
+      failures_[seed] = {largest, best.gain};
+    }
+    if (pass.along_strips) improve(best, seed, patches_.flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
+    return best;
+  }
+
+  /// Whether regions that begin as the same neighbourhood gained too little before.
+  bool has_failed(Index seed, std::size_t neighbourhood, double least_gain) const {
+    return failures_[seed].gain < least_gain && failures_[seed].neighbourhood == neighbourhood;
+  }
+
+  static std::size_t hash_of(const Patch& patch) { return boost::hash_range(patch.faces.begin(), patch.faces.end()); }
+
+  /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
+  void improve(Region& best, Index seed, const Patch& start, double least_gain) {
+    constexpr double noticeable_ratio = 1.05, noticeable_vertices = 2;
+    constexpr std::size_t least_surplus = 2;  // vertices beyond those that determine a surface
+    for (const Surface_type type : analytic_types) {
+      const bool is_simplest = type == analytic_types.front();
+      if (!is_simplest && start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + least_surplus)
+        return;
+      Region region = region_of_type(type, seed, start);
+      if (region.gain > (best.gain > 0 ? noticeable_ratio * best.gain + noticeable_vertices : best.gain))
+        best = std::move(region);
+      const auto ends_at_sharp_edges = [&] { return patches_.faces_beside(best.patch).empty(); };
+      if (is_simplest && best.gain >= least_gain && ends_at_sharp_edges()) return;
+    }
+  }
+
+  /// The region of a surface of that type which begins as a given neighbourhood of the seed.
+  Region region_of_type(Surface_type type, Index seed, const Patch& start) {
+    constexpr int most_rounds = 30;
+    // A surface is fitted again each time it has this many times the vertices, until it has grown by 2 % or less: one
+    // that is flooded at once as far as a fit to few vertices leads goes astray.
+    constexpr std::size_t first_growth = 2, growth = 3;
+    constexpr double little_growth = 1.02;
+    constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
+    const auto needed = static_cast<std::size_t>(degrees_of_freedom(type)) + 1;
+    Region region;
+    if (start.vertices.size() < needed) return region;
+    auto surface = fit_analytic_surface(type, patches_.samples_of(start), tolerance_.largest_distance());
+    if (!surface) return region;
+    const Patch* last = &start;
+    std::size_t last_size = start.vertices.size(), limit = first_growth * last_size;
+    for (int round = 0; round < most_rounds; ++round) {
+      flood(seed, *surface, sign_of(*surface, *last), limit, region.patch);
+      last = &region.patch;
+      const std::size_t size = region.patch.vertices.size();
+      if (size < needed) return region;
+      const bool is_whole = size < limit;
+      if (is_whole && static_cast<double>(size) <= little_growth * static_cast<double>(last_size)) break;
+      limit = is_whole ? everything : growth * std::max(limit, size);
+      last_size = size;
+      surface = fitted_again(*surface, patches_.samples_of(region.patch));
+      if (!surface) return region;
+    }
+    region.surface = *surface;
+    if (!is_piece_of_free_form(*surface)) region.gain = gain(region);
+    return region;
+  }
+
+  /// 1 if the surface's normals point out of the solid, -1 if into it.
+  double sign_of(const Analytic_surface& surface, const Patch& patch) const {
+    constexpr std::size_t enough_faces = 50;
+    return with_type_of(surface, [&](const auto& s) {
+      double sum = 0;
+      for (std::size_t i = 0; i < patch.faces.size() && i < enough_faces; ++i) {
+        const Index f = patch.faces[i];
+        sum += mesh_.area(f) * s.normal(mesh_.centroid(f)).dot(normal(f));
+      }
+      return sum < 0 ? -1. : 1.;
+    });
+  }
+
+  /// The free faces on a surface that are connected with the seed, until they have so many vertices.
+  void flood(Index seed, const Analytic_surface& surface, double sign, std::size_t most_vertices, Patch& patch) {
+    with_type_of(surface, [&](const auto& s) {
+      const auto lies_on = [&](Index f) {
+        for (const Index v : mesh_.corners(f))
+          if (!(std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance())) return false;
+        return normal(f).isZero() ||
+               sign * s.normal(mesh_.centroid(f)).dot(normal(f)) > std::cos(tolerance_.normal_angle[f]);
+      };
+      patches_.flood(seed, lies_on, most_vertices, patch);
+    });
+  }
+
+  /// A surface grown on a free form ends where the distance becomes too large; vertices of a true one are exact, unless
+  /// there is noise.
+  bool is_piece_of_free_form(const Analytic_surface& surface) const {
+    constexpr double exact = 1. / 3;  // of the expected deviation
+    return !tolerance_.is_noisy() && surface.residual > exact * tolerance_.distance;
+  }
+
+  /// The number of vertices explained, each the less the farther it is off, beyond those that determine the surface.
+  double gain(const Region& region) const {
+    return with_type_of(region.surface, [&](const auto& s) {
+      double sum = -s.degrees_of_freedom;
+      for (const Index v : region.patch.vertices) {
+        const double d = s.distance(mesh_.point(v)) / tolerance_.largest_distance();
+        sum += 1 - d * d;
+      }
+      return sum;
+    });
+  }
+
+  // ---- Regions that compete ----
+
+  /// Where a region ends smoothly, one that begins beyond may hold a part of it and explain more: a ring beside a fillet
+  /// and the first row of triangles of the fillet lie on one torus, too.
+  void prefer_rivals(Region& region, const Pass& pass) {
+    for (Region rival = rival_of(region, pass); rival.gain > region.gain; rival = rival_of(region, pass))
+      region = std::move(rival);
+  }
+
+  /// A region with more gain that has faces in common with a given one; none if its gain is not larger.
+  Region rival_of(const Region& region, const Pass& pass) {
+    for (const Index seed : seeds_beyond(region.patch)) {
+      Region rival = best_region(seed, pass);
+      if (rival.gain <= region.gain) continue;
+      patches_.mark(region.patch);
+      const auto is_in_both = [&](Index f) { return patches_.is_marked(f); };
+      if (std::any_of(rival.patch.faces.begin(), rival.patch.faces.end(), is_in_both)) return rival;
+    }
+    return {};
+  }
+
+  /// Some of the faces beside a patch, and for each of them one farther away.
+  std::vector<Index> seeds_beyond(const Patch& patch) {
+    constexpr std::size_t places = 4;          // round the patch
+    constexpr std::size_t vertices_away = 18;  // of the neighbourhood whose last face is one farther away
+    const std::vector<Index> beside = patches_.faces_beside(patch);
+    std::vector<Index> seeds;
+    for (std::size_t i = 0; i < std::min(places, beside.size()); ++i) {
+      const Index near = beside[i * beside.size() / places];
+      const std::vector<Index> about = patches_.neighbourhood(near, vertices_away).faces;
+      patches_.mark(patch);
+      const Index far = *std::find_if(about.rbegin(), about.rend(), [&](Index f) { return !patches_.is_marked(f); });
+      seeds.push_back(near);
+      if (far != near) seeds.push_back(far);
+    }
+    return seeds;
+  }
+
+  /// Other faces of a region that gained too little would hardly gain more, the less the more of them were tried.
+  void expect_no_more(Index seed, const Region& region) {
+    constexpr double first_doubt = 0.3;  // by how much more another face of the region may gain, as a part
+    constexpr double next_doubt = 0.9;   // that each try leaves of the doubt
+    const double hardly = 1 + first_doubt * std::pow(next_doubt, tries_[seed]);
+    const double gain = hardly * std::max(region.gain, 0.);
+    possible_gain_[seed] = gain;
+    for (const Index f : region.patch.faces) {
+      possible_gain_[f] = std::min(possible_gain_[f], gain);
+      ++tries_[f];
+    }
+  }
+
+  const Dual_mesh& mesh_;
+  const Surface_tolerance& tolerance_;
+  Face_patches patches_;
+  Analytic_regions regions_;
+  std::vector<Failure> failures_;      // by face, without noise
+  std::vector<double> possible_gain_;  // of a region about each face, as far as is known
+  std::vector<std::uint32_t> tries_;   // by face: regions with it that gained too little
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

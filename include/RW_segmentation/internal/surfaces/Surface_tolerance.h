@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_TOLERANCE_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_TOLERANCE_H
+
+#include <RW_segmentation/Dual_mesh.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+constexpr double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
+
+/// How far a mesh may be from the surfaces it approximates. Lengths are parts of the diagonal of its bounding box.
+struct Surface_tolerance {
+  using Index = Dual_mesh::Index;
+
+  /// Vertices of CAD models written with six digits or so are that exact.
+  static constexpr double cad_exactness = 1e-5;
+
+  double noise = 0;                  ///< standard deviation of the vertices, 0 if it is below `distance`
+  double distance = 0;               ///< the standard deviation that is reckoned with
+  std::vector<double> normal_angle;  ///< between a face and the surface that it is part of, in radians
+
+  Surface_tolerance() = default;
+
+  /// \param deviation standard deviation of the vertices
+  Surface_tolerance(const Dual_mesh& mesh, double deviation) {
+    constexpr double tessellation = radians(12);  // half of what kernels let an arc turn along an edge
+    constexpr double tilts = 3;                   // deviations of a normal, beyond which one in 300 lies
+    constexpr double least_height = 0.1;          // of a face, in deviations; lower ones have any normal
+    constexpr double any_angle = 3;               // radians, a little less than a half turn
+    noise = deviation > cad_exactness ? deviation : 0;
+    distance = std::max(deviation, cad_exactness);
+    normal_angle.reserve(mesh.number_of_faces());
+    for (Index f = 0; f < mesh.number_of_faces(); ++f) {
+      const double height = 2 * mesh.area(f) / std::max(extent(mesh, f), std::numeric_limits<double>::min());
+      const double tilt = is_noisy() ? noise / std::max(height, least_height * noise) : 0;
+      normal_angle.push_back(std::min(tessellation + tilts * tilt, any_angle));
+    }
+  }
+
+  bool is_noisy() const { return noise > 0; }
+
+  /// What a vertex is allowed: three deviations, or less under noise, which would hide smooth joints otherwise.
+  double largest_distance() const {
+    constexpr double clean_deviations = 3, noisy_deviations = 2.25;
+    return (is_noisy() ? noisy_deviations : clean_deviations) * distance;
+  }
+
+  /// The angle between two faces that noise explains.
+  double angle_of_noise(const std::array<Index, 2>& faces) const {
+    return is_noisy() ? normal_angle[faces[0]] + normal_angle[faces[1]] : 0;
+  }
+
+  /// The angle between two faces that no analytic surface and no noise explains.
+  double sharp_angle(const std::array<Index, 2>& faces) const {
+    constexpr double sharp = radians(40);
+    return std::max(sharp, angle_of_noise(faces));
+  }
+
+  /// The tolerance of a mesh whose faces are parts of faces of this one.
+  /// \param face that each of them is part of
+  Surface_tolerance of_parts(const std::vector<Index>& face) const {
+    Surface_tolerance parts;
+    parts.noise = noise;
+    parts.distance = distance;
+    parts.normal_angle.reserve(face.size());
+    for (const Index f : face) parts.normal_angle.push_back(normal_angle[f]);
+    return parts;
+  }
+
+ private:
+  /// The longest distance between two corners of a face.
+  static double extent(const Dual_mesh& mesh, Index face) {
+    double longest = 0;
+    for (const Index v : mesh.corners(face))
+      for (const Index w : mesh.corners(face)) longest = std::max(longest, (mesh.point(v) - mesh.point(w)).norm());
+    return longest;
+  }
+};
+
+/// The angle between the faces of each edge by the normals of the shape, 0 where one of them has none.
+inline std::vector<double> edge_angles(const Dual_mesh& mesh) {
+  const std::vector<Eigen::Vector3d>& normal = mesh.shape_normals();
+  std::vector<double> angles;
+  angles.reserve(mesh.number_of_edges());
+  for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto [f, g] = mesh.graph().faces_of(e);
+    const bool has_angle = !normal[f].isZero() && !normal[g].isZero();
+    angles.push_back(has_angle ? 2 * std::asin(std::min(1., (normal[f] - normal[g]).norm() / 2)) : 0);
+  }
+  return angles;
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_TORUS_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_TORUS_H
+
+#include <RW_segmentation/internal/surfaces/Scaled_samples.h>
+#include <RW_segmentation/internal/surfaces/Surface_of_revolution.h>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// At one distance from a circle.
+struct Torus : Surface_of_revolution<Torus> {
+  static constexpr const char* name = "torus";
+  static constexpr int degrees_of_freedom = 7;
+  static constexpr bool is_placed_along_axis = true;
+
+  double radius = 0, tube_radius = 0;
+
+  template <class Surface>
+  static auto numbers(Surface& surface) {
+    return std::tie(surface.radius, surface.tube_radius);
+  }
+
+  Meridian_distance meridian(double s, double h) const {
+    const double from_circle = Eigen::Vector2d(s - radius, h).norm();
+    const double length = std::max(from_circle, std::numeric_limits<double>::min());
+    return {from_circle - tube_radius, (s - radius) / length, h / length};
+  }
+  void shape_derivatives(double, double, const Meridian_distance& m, double* row) const {
+    row[0] = -m.off_axis;
+    row[1] = -1;
+  }
+
+  /// All normals of a surface of revolution meet its axis: their Pluecker coordinates lie in the linear complex of the
+  /// axis (Pottmann and Randrup 1998). The meridian is a circle then.
+  static std::vector<Torus> first_guesses(const Scaled_samples& samples) {
+    constexpr double least_axis = 1e-2;  // of a unit complex; one with less of it is a shift, and no rotation
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    using Matrix6 = Eigen::Matrix<double, 6, 6>;
+    Matrix6 sum = Matrix6::Zero();
+    for (std::size_t i = 0; i < samples.normals().size(); ++i) {
+      Vector6 line;
+      line << samples.scaled(samples.normal_points()[i]).cross(samples.normals()[i]), samples.normals()[i];
+      sum += line * line.transpose();
+    }
+    const Matrix6 complexes = Eigen::SelfAdjointEigenSolver<Matrix6>(sum).eigenvectors();
+    std::vector<Torus> guesses;
+    for (int k = 0; k < 2; ++k) {  // the second one, too, where a piece is so small that it turns about two axes
+      const Eigen::Vector3d axis = complexes.col(k).head<3>(), moment = complexes.col(k).tail<3>();
+      if (axis.norm() >= least_axis)
+        add_guess(samples, axis.normalized(), axis.cross(moment) / axis.squaredNorm(), guesses);
+    }
+    return guesses;
+  }
+
+  bool is_sound(const Scaled_samples& samples) const {
+    constexpr double least_ratio = 0.05;  // of the radii; a thinner ring cannot be told from a sphere
+    const double largest = Scaled_samples::largest_ratio * samples.spread();
+    return tube_radius > 0 && tube_radius < largest && radius < largest && radius > least_ratio * tube_radius;
+  }
+
+ private:
+  /// \param foot a point of the axis, scaled
+  static void add_guess(const Scaled_samples& samples, const Eigen::Vector3d& axis, const Eigen::Vector3d& foot,
+                        std::vector<Torus>& guesses) {
+    if (foot.norm() > Scaled_samples::largest_ratio) return;
+    const auto circle = samples.algebraic_ball<2>([&](const Eigen::Vector3d& p) {
+      const Eigen::Vector3d q = samples.scaled(p) - foot;
+      const double height = q.dot(axis);
+      return Eigen::Vector2d((q - height * axis).norm(), height);
+    });
+    if (!circle) return;
+    Torus torus;
+    torus.direction = axis;
+    torus.point = samples.unscaled(foot + (*circle)[1] * axis);
+    torus.radius = samples.spread() * (*circle)[0];
+    torus.tube_radius = samples.spread() * (*circle)[2];
+    guesses.push_back(torus);
+  }
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif

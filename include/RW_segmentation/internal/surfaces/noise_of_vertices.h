@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_OF_VERTICES_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_OF_VERTICES_H
+
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/surfaces/Face_patches.h>
+#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Estimates how far vertices are off their surfaces from what neighbourhoods of faces leave unexplained. Without noise
+/// some small ones lie on a surface exactly, if they avoid edges, even on a coarse mesh. Under noise none does, and
+/// larger ones vary less.
+class Noise_estimate {
+ public:
+  using Index = Dual_mesh::Index;
+
+  explicit Noise_estimate(const Dual_mesh& mesh)
+      : number_of_faces_(mesh.number_of_faces()),
+        patches_(mesh, edge_angles(mesh), [](Index) { return radians(60); }) {
+  }  // what noise hardly makes of flat edges
+
+  /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
+  double standard_deviation() {
+    constexpr std::size_t few_vertices = 12, many_vertices = 30;
+    constexpr double part_of_few = 0.02, part_of_many = 0.05;
+    // From a low quantile of the best of five fits to the standard deviation of the vertices.
+    constexpr double correction_of_few = 2.5, correction_of_many = 1.25;
+    const double round = quantile(part_of_few, [&](Index f) { return patches_.neighbourhood(f, few_vertices); });
+    const double flat =
+        quantile(part_of_few, [&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
+    if (correction_of_few * std::min(round, flat) <= Surface_tolerance::cad_exactness) return 0;
+    return correction_of_many *
+           quantile(part_of_many, [&](Index f) { return patches_.neighbourhood(f, many_vertices); });
+  }
+
+ private:
+  /// A quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh; 0 if
+  /// there are none.
+  template <class Neighbourhood>
+  double quantile(double part, const Neighbourhood& neighbourhood_of) {
+    constexpr std::size_t trials = 400;  // up to twice as many faces, evenly in their order
+    std::vector<double> deviations;
+    for (std::size_t f = 0; f < number_of_faces_; f += std::max<std::size_t>(1, number_of_faces_ / trials)) {
+      const double deviation = least_deviation(neighbourhood_of(static_cast<Index>(f)));
+      if (std::isfinite(deviation)) deviations.push_back(deviation);
+    }
+    if (deviations.empty()) return 0;
+    const auto place = deviations.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(deviations.size()));
+    std::nth_element(deviations.begin(), place, deviations.end());
+    return *place;
+  }
+
+  /// Of the vertices of a patch from the surface that is closest to them.
+  double least_deviation(const Face_patches::Patch& patch) {
+    constexpr double least_surplus = 4;  // vertices beyond those that determine a surface
+    const Surface_samples& samples = patches_.samples_of(patch);
+    const auto points = static_cast<double>(samples.points.size());
+    const Surface_fit fit(samples);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Surface_type type : analytic_types) {
+      const double surplus = points - degrees_of_freedom(type);
+      if (surplus < least_surplus) break;
+      if (const auto surface = fit.fit(type)) least = std::min(least, surface->residual * std::sqrt(points / surplus));
+    }
+    return least;
+  }
+
+  std::size_t number_of_faces_;
+  Face_patches patches_;
+};
+
+/// \throws std::invalid_argument
+inline void require_noise(double noise) {
+  if (!std::isfinite(noise)) throw argument_error("noise", noise, "finite");
+}
+
+/// The tolerance of a mesh.
+/// \param noise standard deviation of the vertices in parts of the diagonal; negative: to be estimated
+/// \throws std::invalid_argument if the noise is not finite
+inline Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {
+  require_noise(noise);
+  return {mesh, noise >= 0 ? noise : Noise_estimate(mesh).standard_deviation()};
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

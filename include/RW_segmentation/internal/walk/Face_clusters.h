@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_WALK_FACE_CLUSTERS_H
+#define RW_SEGMENTATION_INTERNAL_WALK_FACE_CLUSTERS_H
+
+#include <RW_segmentation/Dual_graph.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Connected clusters of faces with the network of conductances between them: a small stand-in for the dual graph of a
+/// large mesh.
+///
+/// Roots are chosen one after the other, none within a few steps of an earlier one; a flood from all of them at once
+/// gives each face to a root that is nearest in steps. Neither crosses an edge over which a walk hardly goes. An edge
+/// between two clusters lies on a way from root to root, whose resistances add up; ways between the same two are
+/// parallel.
+struct Face_clusters {
+  using Index = Dual_graph::Index;
+
+  std::vector<Index> of_face;        ///< the cluster of each face
+  std::vector<Index> root;           ///< the face each cluster has grown from
+  Dual_graph graph;                  ///< of the clusters, with one edge between two neighbours
+  std::vector<double> conductances;  ///< of the edges between clusters, in their order
+
+  /// \param graph of the faces
+  /// \param conductances of its edges
+  /// \param is_crossed by edge: whether clusters may reach over it
+  /// \param steps how far a root keeps others off
+  /// \param alone faces that are clusters by themselves, the first ones
+  /// Complexity: O(m log m) for m faces.
+  Face_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
+                const std::vector<char>& is_crossed, std::size_t steps, const std::vector<Index>& alone) {
+    choose_roots(faces, is_crossed, steps, alone);
+    const std::vector<double> resistance = flood(faces, face_conductances, is_crossed, alone.size());
+    join_clusters(faces, face_conductances, resistance);
+  }
+
+ private:
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  void choose_roots(const Dual_graph& faces, const std::vector<char>& is_crossed, std::size_t steps,
+                    const std::vector<Index>& alone) {
+    root = alone;
+    of_face.assign(faces.number_of_faces(), none);  // for now the last root that has reached the face
+    for (Index c = 0; c < root.size(); ++c) of_face[root[c]] = c;
+    std::vector<Index> ball;
+    for (Index face = 0; face < faces.number_of_faces(); ++face) {
+      if (of_face[face] != none) continue;
+      const auto number = static_cast<Index>(root.size());
+      root.push_back(face);
+      of_face[face] = number;
+      ball.assign(1, face);
+      std::size_t next = 0;
+      for (std::size_t step = 0; step < steps; ++step)
+        for (const std::size_t end = ball.size(); next < end; ++next)
+          for (const auto& [neighbour, edge] : faces.neighbours(ball[next])) {
+            Index& reached_from = of_face[neighbour];
+            const bool is_alone = reached_from < alone.size();
+            if (!is_crossed[edge] || reached_from == number || is_alone) continue;
+            reached_from = number;
+            ball.push_back(neighbour);
+          }
+    }
+  }
+
+  /// Gives each face to a cluster. The first ones do not grow.
+  /// \returns the resistance of the way by which the flood came to each face from its root
+  std::vector<double> flood(const Dual_graph& faces, const std::vector<double>& face_conductances,
+                            const std::vector<char>& is_crossed, std::size_t number_alone) {
+    of_face.assign(faces.number_of_faces(), none);
+    std::vector<double> resistance(faces.number_of_faces(), 0.);
+    std::vector<Index> reached = root;
+    reached.reserve(faces.number_of_faces());
+    for (std::size_t c = 0; c < root.size(); ++c) of_face[root[c]] = static_cast<Index>(c);
+    for (std::size_t next = number_alone; next < reached.size(); ++next) {
+      const Index face = reached[next];
+      for (const auto& [neighbour, edge] : faces.neighbours(face)) {
+        if (!is_crossed[edge] || of_face[neighbour] != none) continue;
+        of_face[neighbour] = of_face[face];
+        resistance[neighbour] = resistance[face] + 1 / face_conductances[edge];
+        reached.push_back(neighbour);
+      }
+    }
+    return resistance;
+  }
+
+  void join_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
+                     const std::vector<double>& resistance) {
+    struct Way {
+      std::array<Index, 2> clusters;
+      double conductance;
+    };
+    std::vector<Way> ways;
+    for (Index e = 0; e < faces.number_of_edges(); ++e) {
+      const auto [f, g] = faces.faces_of(e);
+      const auto [a, b] = std::minmax(of_face[f], of_face[g]);
+      if (a == b) continue;
+      const double c = face_conductances[e];
+      ways.push_back({{a, b}, c > 0 ? 1 / (resistance[f] + 1 / c + resistance[g]) : 0});
+    }
+    std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.clusters < b.clusters; });
+    std::vector<std::array<Index, 2>> ends;
+    for (const auto& [clusters, conductance] : ways) {
+      if (ends.empty() || ends.back() != clusters) {
+        ends.push_back(clusters);
+        conductances.push_back(0);
+      }
+      conductances.back() += conductance;
+    }
+    graph = Dual_graph(root.size(), std::move(ends));
+  }
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif
