@@ -7,8 +7,10 @@
 #include <RW_segmentation/Dual_graph.h>
 
 #include <CGAL/boost/graph/helpers.h>
+#include <boost/pending/disjoint_sets.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include "mesh_graph.h"
 #include "meshes.h"
 
 #include <algorithm>
@@ -57,7 +59,7 @@ inline Labels labels_by_place(const meshes::Shape& shape, const std::function<st
 /// Cells of faces around random ones, as jagged as chance makes them.
 inline Labels random_cells(const meshes::Shape& shape, std::size_t number, unsigned random_seed = 1) {
   const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
-  const RW_segmentation::Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
+  const meshes::Mesh_graph graph(mesh);
   std::mt19937 random(random_seed);
   Labels labels(graph.number_of_faces(), number);
   std::vector<RW_segmentation::Dual_graph::Index> front;
@@ -77,6 +79,25 @@ inline Labels random_cells(const meshes::Shape& shape, std::size_t number, unsig
       }
   }
   return labels;
+}
+
+using Edge_marks = std::map<meshes::Surface_mesh::Edge_index, bool>;
+
+/// Closed loops of edges: all those between faces of different labels.
+inline Edge_marks edges_between(const meshes::Surface_mesh& mesh, const Labels& labels) {
+  Edge_marks marks;
+  for (const auto e : mesh.edges())
+    marks[e] = !mesh.is_border(e) && labels[mesh.face(mesh.halfedge(e, 0))] != labels[mesh.face(mesh.halfedge(e, 1))];
+  return marks;
+}
+
+/// A label for each pair of labels.
+inline Labels products(const Labels& a, const Labels& b) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> number;
+  Labels result;
+  for (std::size_t f = 0; f < a.size(); ++f)
+    result.push_back(number.emplace(std::pair{a[f], b[f]}, number.size()).first->second);
+  return result;
 }
 
 template <class Mesh>
@@ -130,12 +151,7 @@ Surface_measures measures(const Mesh& mesh, const LabelOfFace& label) {
   result.area = std::accumulate(areas.begin(), areas.end(), 0.);
   result.volume = std::accumulate(volumes.begin(), volumes.end(), 0.);
 
-  std::vector<std::size_t> root(number.size());
-  std::iota(root.begin(), root.end(), std::size_t(0));
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  boost::disjoint_sets_with_storage<> regions(number.size());
   for (const auto e : edges(mesh)) {
     const auto h = halfedge(e, mesh);
     if (CGAL::is_border_edge(h, mesh)) {
@@ -143,10 +159,10 @@ Surface_measures measures(const Mesh& mesh, const LabelOfFace& label) {
       continue;
     }
     const auto f = face(h, mesh), g = face(opposite(h, mesh), mesh);
-    if (label[f] == label[g]) root[find(number[f])] = find(number[g]);
+    if (label[f] == label[g]) regions.union_set(number[f], number[g]);
   }
   result.faces = number.size();
-  for (std::size_t i = 0; i < root.size(); ++i) result.regions += find(i) == i;
+  for (std::size_t i = 0; i < number.size(); ++i) result.regions += regions.find_set(i) == i;
   return result;
 }
 

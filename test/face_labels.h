@@ -1,7 +1,7 @@
 #ifndef RW_SEGMENTATION_TEST_FACE_LABELS_H
 #define RW_SEGMENTATION_TEST_FACE_LABELS_H
 
-#include <RW_segmentation/Dual_graph.h>
+#include "mesh_graph.h"
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -26,7 +26,7 @@ class Face_labels {
     using value_type = std::size_t;
     using reference = std::size_t;
     using category = boost::read_write_property_map_tag;
-    const RW_segmentation::Mesh_dual_graph<Mesh>* graph;
+    const meshes::Mesh_graph<Mesh>* graph;
     std::vector<std::size_t>* values;
     friend void put(const Map& map, face_descriptor f, std::size_t label) {
       (*map.values)[map.graph->index(f)] = label;
@@ -34,12 +34,14 @@ class Face_labels {
     friend std::size_t get(const Map& map, face_descriptor f) { return (*map.values)[map.graph->index(f)]; }
   };
   Map map() { return {&graph_, &values_}; }
-  face_descriptor face(std::size_t i) const { return graph_.face(static_cast<RW_segmentation::Dual_graph::Index>(i)); }
+  face_descriptor face(std::size_t i) const {
+    return graph_.face_at(static_cast<RW_segmentation::Dual_graph::Index>(i));
+  }
   const std::vector<std::size_t>& values() const { return values_; }
-  const RW_segmentation::Mesh_dual_graph<Mesh>& graph() const { return graph_; }
+  const meshes::Mesh_graph<Mesh>& graph() const { return graph_; }
 
  private:
-  RW_segmentation::Mesh_dual_graph<Mesh> graph_;
+  meshes::Mesh_graph<Mesh> graph_;
   std::vector<std::size_t> values_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
+#include <RW_segmentation/internal/mesh/Components.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,12 @@ struct Network {
   Dual_graph graph;
   std::vector<double> conductances;
 };
+
+/// Connected components over edges that conduct.
+inline RW_segmentation::internal::Components components(const Dual_graph& graph,
+                                                        const std::vector<double>& conductances) {
+  return {graph, [&](Index e) { return conductances[e] > 0; }};
+}
 
 /// The dual of `n` by `n` squares cut into two triangles each, closed to a torus.
 inline Dual_graph triangulated_torus(std::size_t n) {

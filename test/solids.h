@@ -25,7 +25,7 @@ namespace solids {
 
 using Point = Eigen::Vector3d;
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;  // in radians
 
 // ---- Solids ----
 
@@ -110,7 +110,7 @@ struct Meshing {
     return at_least_one(is_even ? angle * radius / step : angle / step);
   }
   /// A multiple of eight, so that a disc can be meshed evenly.
-  std::size_t around(double radius) const { return 8 * along_arc(pi / 4, radius); }
+  std::size_t around(double radius) const { return 8 * along_arc(half_turn / 4, radius); }
 
  private:
   static std::size_t at_least_one(double ratio) {
@@ -119,7 +119,7 @@ struct Meshing {
 };
 
 inline Meshing even(double edge_length) { return {true, edge_length}; }
-inline Meshing by_kernel(double angle = pi / 12) { return {false, angle}; }
+inline Meshing by_kernel(double angle = half_turn / 12) { return {false, angle}; }
 
 /// Puts patches together; points that coincide become one.
 class Builder {
@@ -191,7 +191,7 @@ class Builder {
   }
 
   std::size_t vertex(const Point& p) {
-    constexpr double cells = 1e7 / pi;  // a unit; irrational, lest a coordinate lies between two cells
+    constexpr double cells = 1e7 / half_turn;  // a unit; irrational, lest a coordinate lies between two cells
     std::array<long long, 3> cell{};
     for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::llround(p[i] * cells);
     const auto [found, is_new] = number_.emplace(cell, solid_.points.size());
@@ -233,7 +233,8 @@ inline void append(std::vector<Point>& polyline, const std::vector<Point>& more)
 inline Eigen::Vector2d square_to_disc(double x, double y) {
   if (x == 0 && y == 0) return {0, 0};
   const bool is_wide = std::abs(x) > std::abs(y);
-  const double radius = is_wide ? x : y, angle = is_wide ? pi / 4 * y / x : pi / 2 - pi / 4 * x / y;
+  const double radius = is_wide ? x : y,
+               angle = is_wide ? half_turn / 4 * y / x : half_turn / 2 - half_turn / 4 * x / y;
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
@@ -259,7 +260,7 @@ inline void disc(Builder& builder, std::size_t label, const Meshing& meshing, st
   } else {
     std::vector<Point> circle;
     for (std::size_t k = 0; k < around; ++k) {
-      const double angle = 2 * pi * static_cast<double>(k) / static_cast<double>(around);
+      const double angle = 2 * half_turn * static_cast<double>(k) / static_cast<double>(around);
       circle.push_back(f(std::cos(angle), (is_upward ? 1 : -1) * std::sin(angle)));
     }
     builder.fan(label, circle);
@@ -279,7 +280,7 @@ inline void flat_disc(Builder& builder, const Meshing& meshing, std::size_t arou
 inline void revolve(Builder& builder, std::size_t label, std::size_t around, std::size_t along, const Curve& curve) {
   builder.grid(label, around, along, [&](double u, double v) {
     const Point p = curve(v);
-    return Point(p.x() * std::cos(2 * pi * u), p.x() * std::sin(2 * pi * u), p.z());
+    return Point(p.x() * std::cos(2 * half_turn * u), p.x() * std::sin(2 * half_turn * u), p.z());
   });
 }
 
@@ -307,10 +308,10 @@ inline Solid rounded_box(const Meshing& meshing) {
   Builder builder("rounded_box");
   const Point half(1, 1.5, 0.75);  // of the box inside, which the radius is added to
   const double radius = 0.3;
-  const std::size_t steps = meshing.along_arc(pi / 2, radius);
+  const std::size_t steps = meshing.along_arc(half_turn / 2, radius);
   // The unit vector from `a` towards `b`, at a part of a right angle.
   const auto turned = [](const Point& a, const Point& b, double t) -> Point {
-    return std::cos(pi / 2 * t) * a + std::sin(pi / 2 * t) * b;
+    return std::cos(half_turn / 2 * t) * a + std::sin(half_turn / 2 * t) * b;
   };
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1., 1.}) {
@@ -361,11 +362,11 @@ inline Solid stepped_shaft(const Meshing& meshing) {
     add_line(plane({0, 0, z}, up), r0, z, r1 + fillet, z);
     const Point centre(r1 + fillet, 0, z + fillet);
     revolve(builder, builder.add(torus({0, 0, z + fillet}, up, r1 + fillet, fillet)), around,
-            meshing.along_arc(pi / 2, fillet), arc(centre, -fillet * up, -fillet * out, 0, pi / 2));
+            meshing.along_arc(half_turn / 2, fillet), arc(centre, -fillet * up, -fillet * out, 0, half_turn / 2));
   };
   const double chamfer = 0.2;
   flat_disc(builder, meshing, around, 1 - chamfer, 0, false);
-  add_line(cone({0, 0, -(1 - chamfer)}, up, pi / 4), 1 - chamfer, 0, 1, chamfer);
+  add_line(cone({0, 0, -(1 - chamfer)}, up, half_turn / 4), 1 - chamfer, 0, 1, chamfer);
   add_line(cylinder({0, 0, 0}, up, 1), 1, chamfer, 1, 1);
   add_shoulder(1, 0.7, 1, 0.2);
   add_line(cylinder({0, 0, 0}, up, 0.7), 0.7, 1.2, 0.7, 2);
@@ -387,13 +388,13 @@ inline Solid capsule(const Meshing& meshing) {
     const std::size_t label = builder.add(sphere(centre, radius));
     if (meshing.is_even) {
       disc(builder, label, meshing, around, side > 0, [&](double x, double y) -> Point {
-        const double r = std::hypot(x, y), out = r > 0 ? std::sin(pi / 2 * r) / r : 0;
-        return centre + radius * Point(out * x, out * y, side * std::cos(pi / 2 * r));
+        const double r = std::hypot(x, y), out = r > 0 ? std::sin(half_turn / 2 * r) / r : 0;
+        return centre + radius * Point(out * x, out * y, side * std::cos(half_turn / 2 * r));
       });
     } else {
-      const double begin = side > 0 ? 0 : -pi / 2;
-      const Curve quarter = arc(centre, radius * Point::UnitX(), radius * Point::UnitZ(), begin, begin + pi / 2);
-      revolve(builder, label, around, meshing.along_arc(pi / 2, radius), [=](double t) -> Point {
+      const double begin = side > 0 ? 0 : -half_turn / 2;
+      const Curve quarter = arc(centre, radius * Point::UnitX(), radius * Point::UnitZ(), begin, begin + half_turn / 2);
+      revolve(builder, label, around, meshing.along_arc(half_turn / 2, radius), [=](double t) -> Point {
         const Point p = quarter(t);
         return {std::abs(p.x()) < 1e-9 ? 0 : p.x(), 0, p.z()};
       });
@@ -411,7 +412,7 @@ inline Solid pipe_elbow(const Meshing& meshing) {
   // The centre line comes down the first arm, along -y, turns about the z-axis, and leaves along +x.
   const Point start(-bend, arm, 0), middle(0, 0, 0), end(arm, -bend, 0);
   const auto section = [](const Point& centre, const Point& side, double radius, double u) -> Point {
-    return centre + radius * (std::cos(2 * pi * u) * side + std::sin(2 * pi * u) * Point::UnitZ());
+    return centre + radius * (std::cos(2 * half_turn * u) * side + std::sin(2 * half_turn * u) * Point::UnitZ());
   };
   for (const double radius : {outer, inner}) {
     const auto sweep = [&](const Surface& surface, std::size_t along, const Curve& centre, const Curve& side) {
@@ -421,9 +422,9 @@ inline Solid pipe_elbow(const Meshing& meshing) {
     };
     sweep(cylinder(start, Point::UnitY(), radius), meshing.along_line(arm), line(start, {-bend, 0, 0}),
           [](double) { return Point(-1, 0, 0); });
-    sweep(torus(middle, Point::UnitZ(), bend, radius), meshing.along_arc(pi / 2, bend),
-          arc(middle, bend * Point::UnitX(), bend * Point::UnitY(), pi, 1.5 * pi),
-          arc(middle, Point::UnitX(), Point::UnitY(), pi, 1.5 * pi));
+    sweep(torus(middle, Point::UnitZ(), bend, radius), meshing.along_arc(half_turn / 2, bend),
+          arc(middle, bend * Point::UnitX(), bend * Point::UnitY(), half_turn, 1.5 * half_turn),
+          arc(middle, Point::UnitX(), Point::UnitY(), half_turn, 1.5 * half_turn));
     sweep(cylinder(end, Point::UnitX(), radius), meshing.along_line(arm), line({0, -bend, 0}, end),
           [](double) { return Point(0, -1, 0); });
   }
@@ -444,7 +445,7 @@ inline Solid flange(const Meshing& meshing) {
   Builder builder("flange");
   const double outer = 1.6, bore = 0.6, pitch = 1.1, hole = 0.2, half_height = 0.25;
   const std::size_t holes = 6;
-  const double half_sector = pi / static_cast<double>(holes);
+  const double half_sector = half_turn / static_cast<double>(holes);
   const Point x = Point::UnitX(), y = Point::UnitY(), up = Point::UnitZ();
   const std::size_t along = meshing.along_line(2 * half_height);
 
@@ -465,7 +466,7 @@ inline Solid flange(const Meshing& meshing) {
     for (const Point& p : outline) rim.push_back(centre + hole * (p - centre).normalized());
   } else {
     const double begin = std::atan2(outline[0].y(), outline[0].x() - pitch);
-    rim = points_on(arc(centre, hole * x, hole * y, begin, begin + 2 * pi), meshing.around(hole));
+    rim = points_on(arc(centre, hole * x, hole * y, begin, begin + 2 * half_turn), meshing.around(hole));
   }
   const std::size_t layers = meshing.along_line(pitch - hole - bore);
 
@@ -529,9 +530,10 @@ inline Solid blended_slot(const Meshing& meshing) {
   const double floor = height - depth, floor_radius = pocket - fillet;
   // An end of the pocket has as many steps as the three sides of the block about it: one, two and one times `quarter`.
   const std::size_t quarter = meshing.is_even ? meshing.along_line(half_width) : 1;
-  const std::size_t around_end = meshing.is_even ? 4 * quarter : 2 * meshing.along_arc(pi / 2, pocket);
+  const std::size_t around_end = meshing.is_even ? 4 * quarter : 2 * meshing.along_arc(half_turn / 2, pocket);
   const std::size_t along = meshing.along_line(2 * half_straight);
-  const std::size_t down_wall = meshing.along_line(depth - fillet), round_fillet = meshing.along_arc(pi / 2, fillet);
+  const std::size_t down_wall = meshing.along_line(depth - fillet),
+                    round_fillet = meshing.along_arc(half_turn / 2, fillet);
   const std::size_t across_rim = meshing.along_line(half_width - pocket), down_side = meshing.along_line(height);
   const Point x = Point::UnitX(), y = Point::UnitY(), up = Point::UnitZ();
 
@@ -545,7 +547,7 @@ inline Solid blended_slot(const Meshing& meshing) {
     };
     // An arc of a stadium about the pocket and the straight that follows it, counterclockwise.
     const auto end_arc = [&](double radius, double z) {
-      return arc(half_straight * x + z * up, radius * x, radius * y, -pi / 2, pi / 2);
+      return arc(half_straight * x + z * up, radius * x, radius * y, -half_turn / 2, half_turn / 2);
     };
     const auto straight = [&](double radius, double z) {
       return line(half_straight * x + radius * y + z * up, -half_straight * x + radius * y + z * up);
@@ -553,7 +555,8 @@ inline Solid blended_slot(const Meshing& meshing) {
 
     // The wall, the fillet and the floor.
     const auto profile = [&](double v) {  // radius and height of the fillet, upward
-      return std::pair(floor_radius + fillet * std::sin(pi / 2 * v), floor + fillet * (1 - std::cos(pi / 2 * v)));
+      return std::pair(floor_radius + fillet * std::sin(half_turn / 2 * v),
+                       floor + fillet * (1 - std::cos(half_turn / 2 * v)));
     };
     const double above = floor + fillet;
     add_grid(builder.add(cylinder(at(half_straight * x), up, pocket)), around_end, down_wall,
@@ -626,7 +629,8 @@ inline Solid blended_slot(const Meshing& meshing) {
       std::vector<Point> points;
       for (const double side : {1., -1.}) {
         const std::vector<Point> end = points_on(
-            arc(side * half_straight * x + z * up, side * radius * x, side * radius * y, -pi / 2, pi / 2), around_end);
+            arc(side * half_straight * x + z * up, side * radius * x, side * radius * y, -half_turn / 2, half_turn / 2),
+            around_end);
         points.insert(points.end(), end.begin(), end.end());
       }
       return points;

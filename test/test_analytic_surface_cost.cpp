@@ -43,8 +43,7 @@ Labels halves_of_faces(const solids::Solid& solid) {
 Labels merged(const solids::Solid& solid, const Labels& fragments) {
   const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
   Face_labels<Surface_mesh> labels(mesh, fragments);
-  const auto hierarchy =
-      merge_segments(mesh, labels.map(), Edge_sharpness<Surface_mesh>(mesh), Analytic_surface_cost<Surface_mesh>(mesh));
+  const auto hierarchy = merge_segments(mesh, labels.map(), Edge_sharpness(mesh), Analytic_surface_cost(mesh));
   hierarchy.segments(Cost_threshold_stop(1), labels.map());
   return labels.values();
 }
@@ -71,11 +70,14 @@ TEST(AnalyticSurfaceCost, MergesTheHalvesOfEveryFaceUnderNoise) {
 
 TEST(AnalyticSurfaceCost, OfPartsOfAPlaneIsWhatTheNumberOfTheirVerticesProves) {
   const Surface_mesh mesh = meshes::surface_mesh(meshes::plane(6));
-  const Analytic_surface_cost<Surface_mesh> cost(mesh, 0);
+  const Dual_mesh_of dual(mesh);
+  const Analytic_surface_cost cost(dual, 0);
+  const auto region_of = [&](std::size_t f) {
+    return cost.region(dual, dual.index(Surface_mesh::Face_index(static_cast<unsigned>(f))));
+  };
   const auto region = [&](std::size_t first, std::size_t faces) {
-    auto whole = cost.region(Surface_mesh::Face_index(static_cast<unsigned>(first)));
-    for (std::size_t f = first + 1; f < first + faces; ++f)
-      cost.join(whole, cost.region(Surface_mesh::Face_index(static_cast<unsigned>(f))));
+    auto whole = region_of(first);
+    for (std::size_t f = first + 1; f < first + faces; ++f) cost.join(whole, region_of(f));
     return whole;
   };
   const Region_boundary boundary = {{1, 0}, {1, 0}};
@@ -91,7 +93,7 @@ TEST(EdgeSharpness, IsTheAngleAsAPartOf40Degrees) {
     meshes::Shape cube = meshes::cube(2);
     for (auto& p : cube.points) p *= size;
     const Surface_mesh mesh = meshes::surface_mesh(cube);
-    const Edge_sharpness<Surface_mesh> sharpness(mesh);
+    const Edge_sharpness sharpness(mesh);
     for (const auto e : mesh.edges()) {
       const auto h = mesh.halfedge(e);
       const auto f = mesh.face(h), g = mesh.face(mesh.opposite(h));
@@ -104,8 +106,8 @@ TEST(EdgeSharpness, IsTheAngleAsAPartOf40Degrees) {
 TEST(EdgeSharpness, RefusesNoiseThatIsNoNumber) {
   const Surface_mesh mesh = meshes::surface_mesh(meshes::cube());
   for (const double noise : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(Edge_sharpness<Surface_mesh>(mesh, noise), std::invalid_argument);
-    EXPECT_THROW(Analytic_surface_cost<Surface_mesh>(mesh, noise), std::invalid_argument);
+    EXPECT_THROW(Edge_sharpness(mesh, noise), std::invalid_argument);
+    EXPECT_THROW(Analytic_surface_cost(mesh, noise), std::invalid_argument);
   }
 }
 
@@ -116,17 +118,13 @@ TEST(SurfaceTolerance, EstimatesTheNoiseOfTheVertices) {
     for (const double percent : {0., 0.1, 0.3}) {
       SCOPED_TRACE(clean.name);
       const Surface_mesh mesh = meshes::surface_mesh(shape_of(solids::with_noise(clean, percent)));
-      const auto data =
-          internal::surface_data(mesh, Mesh_dual_graph<Surface_mesh>(mesh), -1, CGAL::parameters::default_values());
-      EXPECT_NEAR(data.tolerance->noise, percent / 100, 0.25 * percent / 100);
+      EXPECT_NEAR(internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, percent / 100, 0.25 * percent / 100);
     }
 }
 
 TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
     const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
-    const auto data =
-        internal::surface_data(mesh, Mesh_dual_graph<Surface_mesh>(mesh), -1, CGAL::parameters::default_values());
-    EXPECT_EQ(data.tolerance->noise, 0) << solid.name;
+    EXPECT_EQ(internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, 0) << solid.name;
   }
 }

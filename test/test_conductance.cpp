@@ -1,5 +1,6 @@
 // Conductances: the formula, its cap and floors, constraints, and what maps they accept.
 
+#include "mesh_graph.h"
 #include "meshes.h"
 
 #include <RW_segmentation/Conductance.h>
@@ -27,9 +28,9 @@
 
 namespace {
 
+using meshes::Mesh_graph;
 using RW_segmentation::Conductance;
 using RW_segmentation::Dihedral_difference;
-using RW_segmentation::Mesh_dual_graph;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -43,7 +44,7 @@ struct Edges {
   std::map<edge_descriptor, double> difference;
 
   explicit Edges(const Mesh& mesh) {
-    const Mesh_dual_graph<Mesh> graph(mesh);
+    const Mesh_graph<Mesh> graph(mesh);
     edge = graph.edge_descriptors();
     const auto point = get(CGAL::vertex_point, mesh);
     for (const edge_descriptor e : edge) {
@@ -138,7 +139,7 @@ TYPED_TEST(Conductance_on, NamesTheFacesOfAnEdgeWithAnImpossibleDifference) {
   for (const double bad : {-1., -1e-300, nan}) {
     Edges interior(held.mesh);
     interior.difference[interior.edge[4]] = bad;
-    const auto [f, g] = Mesh_dual_graph<typename TypeParam::Mesh>(held.mesh).faces_of(4);
+    const auto [f, g] = Mesh_graph<typename TypeParam::Mesh>(held.mesh).faces_of(4);
     const std::string message = message_of([&] { Conductance(held.mesh, interior.difference_map()); });
     EXPECT_NE(message.find("faces " + std::to_string(f) + " and " + std::to_string(g)), std::string::npos) << message;
   }

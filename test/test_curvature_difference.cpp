@@ -1,5 +1,6 @@
 // The difference of engineering models: Eq. 7 and 8, smooth joints beside creases, and what odd meshes get.
 
+#include "mesh_graph.h"
 #include "meshes.h"
 
 #include <RW_segmentation/Curvature_difference.h>
@@ -34,7 +35,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The values on the interior edges, in the order of the mesh.
 template <class Mesh, class Map>
 std::vector<double> interior_values(const Mesh& mesh, const Map& map) {
-  const Mesh_dual_graph<Mesh> graph(mesh);
+  const meshes::Mesh_graph<Mesh> graph(mesh);
   std::vector<double> values;
   for (const auto e : graph.edge_descriptors()) values.push_back(get(map, e));
   return values;
@@ -246,7 +247,7 @@ TEST(Curvature_difference, FacesWithoutAreaDoNotDifferFromTheirNeighbours) {
   shape.faces = {{0, 1, 3}, {1, 0, 2}, {2, 0, 4}, {1, 2, 4}, {1, 5, 3}};
   const Surface_mesh mesh = meshes::surface_mesh(shape);
   const Curvature_difference difference(mesh);
-  const Mesh_dual_graph graph(mesh);
+  const meshes::Mesh_graph graph(mesh);
   for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
     const auto [f, g] = graph.faces_of(e);
     const double value = get(difference, graph.edge(e));

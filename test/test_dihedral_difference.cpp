@@ -1,5 +1,6 @@
 // The dihedral difference: closed forms, invariances, and what odd meshes get.
 
+#include "mesh_graph.h"
 #include "meshes.h"
 
 #include <RW_segmentation/Dihedral_difference.h>
@@ -30,9 +31,9 @@
 
 namespace {
 
+using meshes::Mesh_graph;
 using RW_segmentation::Dihedral_difference;
 using RW_segmentation::Dihedral_measure;
-using RW_segmentation::Mesh_dual_graph;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<Dihedral_measure, 2> measures = {Dihedral_measure::one_minus_cosine, Dihedral_measure::angle};
@@ -40,7 +41,7 @@ constexpr std::array<Dihedral_measure, 2> measures = {Dihedral_measure::one_minu
 /// The values on the interior edges, in the order of the mesh.
 template <class Mesh, class Map>
 std::vector<double> interior_values(const Mesh& mesh, const Map& map) {
-  const Mesh_dual_graph<Mesh> graph(mesh);
+  const Mesh_graph<Mesh> graph(mesh);
   std::vector<double> values;
   for (const auto e : graph.edge_descriptors()) values.push_back(get(map, e));
   return values;
@@ -170,12 +171,11 @@ TYPED_TEST(Dihedral_difference_on, TakesNormalsFromAnyFaceMap) {
   const TypeParam held(meshes::with_noise(meshes::torus(2, 0.7, 16, 8), 0.02));
   using Mesh = typename TypeParam::Mesh;
   using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
-  const auto geometry = RW_segmentation::internal::face_geometry(held.mesh, Mesh_dual_graph<Mesh>(held.mesh),
-                                                                 CGAL::parameters::default_values());
+  const RW_segmentation::Dual_mesh_of dual(held.mesh);
   std::map<face_descriptor, Eigen::Vector3d> normals;
   std::size_t i = 0;
   for (const face_descriptor f : faces(held.mesh)) {
-    normals[f] = (1 + static_cast<double>(i % 7)) * geometry.normal[i];  // of any length
+    normals[f] = (1 + static_cast<double>(i % 7)) * dual.normal(dual.index(f));  // of any length
     ++i;
   }
   const Dihedral_difference own(held.mesh, 0.2, Dihedral_measure::angle);
@@ -243,7 +243,7 @@ TEST(Dihedral_difference, FacesWithoutAreaDoNotDifferFromTheirNeighbours) {
     if (rotate) shape = meshes::transformed(shape, meshes::some_rotation());
     const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
     const Dihedral_difference difference(mesh);
-    const Mesh_dual_graph graph(mesh);
+    const Mesh_graph graph(mesh);
     ASSERT_EQ(graph.number_of_edges(), 5U);
     for (std::uint32_t e = 0; e < 5; ++e) {
       const auto [f, g] = graph.faces_of(e);

@@ -1,6 +1,6 @@
 // Triangles cut along chords, against all ways to cut them.
 
-#include <RW_segmentation/internal/Divided_triangle.h>
+#include <RW_segmentation/internal/boundary/Divided_triangle.h>
 
 #include <gtest/gtest.h>
 

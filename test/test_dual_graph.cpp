@@ -1,6 +1,7 @@
 // The dual graph as a graph: of pairs of faces, of a mesh, and as Boost.Graph sees it.
 
 #include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 
 #include <boost/concept/assert.hpp>
 #include <boost/graph/graph_concepts.hpp>
@@ -18,7 +19,7 @@
 #include <vector>
 
 using RW_segmentation::Dual_graph;
-using RW_segmentation::Mesh_dual_graph;
+using RW_segmentation::Dual_mesh_of;
 using Index = Dual_graph::Index;
 
 namespace {
@@ -80,38 +81,38 @@ TEST(Dual_graph, HasArcsThatAreEqualOnlyIfTheyLeaveOneFaceOverOneEdge) {
 
 TEST(Dual_graph, OfAMeshJoinsFacesThatShareAnEdge) {
   const auto mesh = meshes::surface_mesh(meshes::plane(3));
-  const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
-  EXPECT_EQ(graph.number_of_faces(), 18U);
+  const Dual_mesh_of dual(mesh);
+  EXPECT_EQ(dual.graph().number_of_faces(), 18U);
   std::size_t interior = 0;
   for (const auto e : mesh.edges()) interior += !mesh.is_border(e);
-  EXPECT_EQ(graph.number_of_edges(), interior);
-  for (Index e = 0; e < graph.number_of_edges(); ++e) {
-    const auto h = mesh.halfedge(graph.edge(e));
-    EXPECT_EQ(graph.face(graph.faces_of(e)[0]), mesh.face(h));
-    EXPECT_EQ(graph.face(graph.faces_of(e)[1]), mesh.face(mesh.opposite(h)));
+  EXPECT_EQ(dual.graph().number_of_edges(), interior);
+  for (Index e = 0; e < dual.graph().number_of_edges(); ++e) {
+    const auto h = mesh.halfedge(dual.edge(e));
+    EXPECT_EQ(dual.face(dual.graph().faces_of(e)[0]), mesh.face(h));
+    EXPECT_EQ(dual.face(dual.graph().faces_of(e)[1]), mesh.face(mesh.opposite(h)));
   }
-  EXPECT_EQ(graph.index(meshes::Surface_mesh::null_face()), (Mesh_dual_graph<meshes::Surface_mesh>::none));
+  EXPECT_EQ(dual.index(meshes::Surface_mesh::null_face()), dual.none);
 }
 
-TEST(Dual_graph, RenumberedAlongTheSurfaceHasTheSameEdgesAndNeighboursCloseBy) {
+TEST(Dual_graph, OfAMeshNumbersNeighboursCloseByWhateverTheOrderOfTheMesh) {
   const auto shape = meshes::together(meshes::torus(1, 0.3, 12, 8), meshes::moved(meshes::plane(3), {5, 0, 0}));
   const auto mesh = meshes::surface_mesh(meshes::with_faces_in_order(shape, meshes::random_order(shape.faces.size())));
-  const Mesh_dual_graph<meshes::Surface_mesh> before(mesh);
-  auto graph = before;
-  const std::vector<Index> former = graph.renumber_along_surface();
-  ASSERT_EQ(former.size(), before.number_of_edges());
-  EXPECT_EQ(std::set<Index>(former.begin(), former.end()).size(), former.size());
+  const Dual_mesh_of dual(mesh);
+  const Dual_graph& graph = dual.graph();
+  const auto length = [](Index f, Index g) { return std::max(f, g) - std::min(f, g); };
+  std::set<meshes::Surface_mesh::Edge_index> edges_of_mesh;
   std::size_t sum_before = 0, sum = 0;
-  const auto length = [](const std::array<Index, 2>& ends) {
-    return std::max(ends[0], ends[1]) - std::min(ends[0], ends[1]);
-  };
-  for (Index e = 0; e < former.size(); ++e) {
-    EXPECT_EQ(graph.edge(e), before.edge(former[e]));
-    for (const std::size_t side : {0U, 1U})
-      EXPECT_EQ(graph.face(graph.faces_of(e)[side]), before.face(before.faces_of(former[e])[side]));
-    sum += length(graph.faces_of(e));
-    sum_before += length(before.faces_of(e));
+  for (Index e = 0; e < graph.number_of_edges(); ++e) {
+    edges_of_mesh.insert(dual.edge(e));
+    const auto [f, g] = graph.faces_of(e);
+    sum += length(f, g);
+    sum_before += length(dual.place(f), dual.place(g));
   }
+  EXPECT_EQ(edges_of_mesh.size(), graph.number_of_edges());
   EXPECT_LT(sum, sum_before / 2);
-  for (const auto f : mesh.faces()) EXPECT_EQ(graph.face(graph.index(f)), f);
+  Index place = 0;
+  for (const auto f : mesh.faces()) {
+    EXPECT_EQ(dual.face(dual.index(f)), f);
+    EXPECT_EQ(dual.place(dual.index(f)), place++);
+  }
 }

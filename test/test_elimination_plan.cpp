@@ -1,6 +1,6 @@
 // The plan of an elimination against the elimination itself, carried out on sets of neighbours.
 
-#include <RW_segmentation/internal/Elimination_plan.h>
+#include <RW_segmentation/internal/solver/Elimination_plan.h>
 
 #include <gtest/gtest.h>
 #include "networks.h"

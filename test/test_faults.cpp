@@ -3,8 +3,8 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Curvature_difference.h>
 #include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
@@ -126,7 +126,7 @@ TEST_F(Faults, TransferThatRunsOutOfMemoryWritesNothing) {
 TEST_F(Faults, EngineeringSegmentationThatRunsOutOfMemoryWritesNothing) {
   const Surface_mesh cube = meshes::surface_mesh(meshes::cube(2));
   Face_labels<Surface_mesh> sides(cube);
-  for_every_allocation([&] { segmentation_via_random_walks(cube, sides.map(), Engineering_segmentation()); },
+  for_every_allocation([&] { segmentation_into_surfaces(cube, sides.map()); },
                        [&] { ASSERT_EQ(sides.values()[0], sides.untouched); });
 }
 
@@ -204,7 +204,7 @@ TEST_F(Faults, ExceptionOfAMapPassesThroughAndNothingIsWritten) {
       if (left-- == 0) throw std::domain_error("of the map");
       return 1.;
     });
-    EXPECT_THROW(segmentation_from_seeds(mesh, throwing, seeds, labels.map()), std::domain_error);
+    EXPECT_THROW(segmentation_from_seeds(mesh, as_conductance(throwing), seeds, labels.map()), std::domain_error);
     expect_untouched();
   }
 }

@@ -1,6 +1,6 @@
 // The dense arithmetic of the elimination against its definition, on each instruction set that this machine has.
 
-#include <RW_segmentation/internal/front_kernels.h>
+#include <RW_segmentation/internal/solver/front_kernels.h>
 
 #include <CGAL/tags.h>
 

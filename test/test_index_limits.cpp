@@ -3,9 +3,10 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
-#include <RW_segmentation/internal/Elimination_plan.h>
 #include <RW_segmentation/internal/check_number.h>
+#include <RW_segmentation/internal/solver/Elimination_plan.h>
 #include <RW_segmentation/smooth_boundaries.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -90,7 +91,7 @@ TEST_F(Index_limits, AGraphOfTooManyFacesIsRefusedBeforeMemoryIsTaken) {
 }
 
 TEST_F(Index_limits, AMeshOfTooManyFacesOrHalfedgesIsRefused) {
-  const auto read = [&] { RW_segmentation::Mesh_dual_graph<Boasting_mesh>{mesh}; };
+  const auto read = [&] { RW_segmentation::Dual_mesh_of<Boasting_mesh>{mesh}; };
   EXPECT_NO_THROW(read());
   mesh.more_edges = four_billion / 2;
   EXPECT_NE(refusal(read).find("halfedges are more than 32 bits can number"), std::string::npos);

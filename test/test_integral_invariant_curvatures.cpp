@@ -88,12 +88,11 @@ Moments as_vector(double volume, const Vector3d& first, const Eigen::Matrix3d& s
 /// In the unit of the radius.
 Moments moments(const meshes::Shape& shape, std::size_t face, double radius) {
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  const auto np = CGAL::parameters::default_values();
-  const Mesh_dual_graph<Surface_mesh> graph(mesh);
-  const auto geometry = internal::face_geometry(mesh, graph, np);
-  const internal::Triangulated_faces surface(mesh, graph, geometry, np);
-  const auto ball = internal::Ball_neighbourhood(surface, geometry)
-                        .moments(static_cast<Dual_graph::Index>(face), radius / geometry.unit);
+  const Dual_mesh_of dual(mesh);
+  const internal::Triangulated_faces surface(dual);
+  const auto ball =
+      internal::Ball_neighbourhood(surface, dual)
+          .moments(dual.index(Surface_mesh::Face_index(static_cast<std::uint32_t>(face))), radius / dual.unit());
   return as_vector(ball.volume(), ball.first(), ball.second());
 }
 

@@ -1,6 +1,6 @@
 // Closest points on a surface and on the surface in the metric of points and normals.
 
-#include <RW_segmentation/internal/Lifted_surface.h>
+#include <RW_segmentation/internal/boundary/Lifted_surface.h>
 
 #include <gtest/gtest.h>
 #include "meshes.h"
@@ -22,9 +22,7 @@ struct Surface {
   std::vector<Eigen::Vector3d> normals;
 
   explicit Surface(const meshes::Shape& shape)
-      : mesh(meshes::surface_mesh(shape)),
-        triangles(triangle_surface(mesh, RW_segmentation::Mesh_dual_graph<meshes::Surface_mesh>(mesh),
-                                   CGAL::parameters::default_values())) {
+      : mesh(meshes::surface_mesh(shape)), triangles(RW_segmentation::Dual_mesh_of(mesh)) {
     for (Index f = 0; f < triangles.number_of_faces(); ++f) {
       const Eigen::Vector3d a = corner(f, 0);
       normals.push_back((corner(f, 1) - a).cross(corner(f, 2) - a).normalized());

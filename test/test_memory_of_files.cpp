@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How much memory reading a mesh file takes: a multiple of the file's size, whatever the file promises.
 
 #include "../examples/mesh_files.h"

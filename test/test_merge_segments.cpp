@@ -5,11 +5,14 @@
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/merge_segments.h>
 
+#include <CGAL/Polygon_mesh_processing/measure.h>
+
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
 #include "face_labels.h"
+#include "mesh_graph.h"
 #include "meshes.h"
 
 #include <cmath>
@@ -22,6 +25,7 @@
 #include <vector>
 
 using namespace RW_segmentation;
+using meshes::Mesh_graph;
 
 namespace {
 
@@ -70,20 +74,20 @@ Labels segments_of(const Mesh& mesh, const Labels& fragments, const MergeCost& c
 template <class Difference, class Cost>
 std::vector<double> costs_by_definition(const Surface_mesh& mesh, Labels labels, const Difference& difference,
                                         const Cost& cost) {
-  const auto np = CGAL::parameters::default_values();
-  const Mesh_dual_graph<Surface_mesh> graph(mesh);
-  const auto geometry = internal::face_geometry(mesh, graph, np);
-  const double unit = std::sqrt(geometry.total_area);
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const Mesh_graph<Surface_mesh> graph(mesh);
+  const double total_area = PMP::area(mesh);
   std::vector<double> costs;
   while (true) {
     std::map<std::size_t, Edge_sums> outline;
     std::map<std::size_t, double> area;
     std::map<std::pair<std::size_t, std::size_t>, Edge_sums> common;
-    for (std::size_t f = 0; f < labels.size(); ++f) area[labels[f]] += geometry.area[f] / geometry.total_area;
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      area[labels[f]] += PMP::face_area(graph.face_descriptors()[f], mesh) / total_area;
     for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
       const auto [f, g] = graph.faces_of(e);
       if (labels[f] == labels[g]) continue;
-      const double length = geometry.edge_length[e] / unit;
+      const double length = PMP::edge_length(graph.edge(e), mesh) / std::sqrt(total_area);
       const Edge_sums sums = {length, length * get(difference, graph.edge(e))};
       common[std::minmax(labels[f], labels[g])] += sums;
       outline[labels[f]] += sums;
@@ -121,7 +125,7 @@ void expect_costs(const Surface_mesh& mesh, const Labels& fragments, const Cost&
 /// The cost of a user: small regions first.
 struct Number_of_faces {
   using Region = int;
-  int region(Surface_mesh::Face_index) const { return 1; }
+  int region(const Dual_mesh&, Dual_mesh::Index) const { return 1; }
   void join(int& region, int other) const { region += other; }
   double operator()(int a, int b, const Region_boundary&) const { return a + b; }
 };
@@ -132,7 +136,7 @@ struct Number_of_faces {
 
 TEST(MergeSegments, RelativeBoundaryCostFollowsEquation10) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 60);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 60);
   const auto expected =
       costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
                           [](double, double, const Edge_sums& common, const Edge_sums& whole) {
@@ -145,13 +149,13 @@ TEST(MergeSegments, RelativeBoundaryCostFollowsEquation10) {
 
 TEST(MergeSegments, SizeAwareCostFollowsItsFormula) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 60);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 60);
   const auto expected =
       costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
                           [](double a, double b, const Edge_sums& common, const Edge_sums&) {
                             return (common.difference / common.length + 0.1) * (a * b / (a + b)) / common.length;
                           });
-  expect_costs(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), expected);
+  expect_costs(mesh, fragments, Size_aware_cost(), expected);
 }
 
 TEST(MergeSegments, ThicknessRaisesTheSizeAwareCost) {
@@ -168,8 +172,7 @@ TEST(MergeSegments, ThicknessRaisesTheSizeAwareCost) {
     const auto map = boost::make_function_property_map<Surface_mesh::Face_index>(
         [&](Surface_mesh::Face_index f) { return values[f]; });
     Face_labels<Surface_mesh> ids(mesh, fragments);
-    return merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh),
-                          Size_aware_cost<Surface_mesh>(mesh, map))
+    return merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost(mesh, map))
         .merges()
         .at(0)
         .cost;
@@ -183,7 +186,7 @@ TEST(MergeSegments, ThicknessRaisesTheSizeAwareCost) {
 
 TEST(MergeSegments, UserCostGetsRegionsJoined) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 40);
   Face_labels<Surface_mesh> ids(mesh, fragments);
   const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Number_of_faces());
   EXPECT_EQ(hierarchy.merges().back().cost, static_cast<double>(num_faces(mesh)));
@@ -199,7 +202,7 @@ TEST(MergeSegments, ThousandsOfFragmentsCostFewEvaluations) {
   };
   const Surface_mesh mesh = meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 1, 200, 100), 0.005));
   const std::size_t fragments = 5000;
-  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), fragments));
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), fragments));
   std::size_t calls = 0;
   Counting cost;
   cost.calls = &calls;
@@ -212,29 +215,28 @@ TEST(MergeSegments, ThousandsOfFragmentsCostFewEvaluations) {
 TEST(MergeSegments, FaceOrderDoesNotMatter) {
   const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 50);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 50);
   const std::vector<std::size_t> order = meshes::random_order(shape.faces.size());
   const Surface_mesh shuffled = meshes::surface_mesh(meshes::with_faces_in_order(shape, order));
   Labels shuffled_fragments;
   for (const std::size_t f : order) shuffled_fragments.push_back((fragments[f] * 7) % 50);
 
   for (const std::size_t number : {1u, 2u, 7u, 20u, 50u}) {
-    const Labels segments = segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), number);
+    const Labels segments = segments_of(mesh, fragments, Size_aware_cost(), number);
     Labels expected;
     for (const std::size_t f : order) expected.push_back(segments[f]);
-    EXPECT_TRUE(same_partition(
-        segments_of(shuffled, shuffled_fragments, Size_aware_cost<Surface_mesh>(shuffled), number), expected))
+    EXPECT_TRUE(same_partition(segments_of(shuffled, shuffled_fragments, Size_aware_cost(), number), expected))
         << number << " segments";
   }
 }
 
 TEST(MergeSegments, ScaleDoesNotMatter) {
   const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(meshes::surface_mesh(shape)), 50);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(meshes::surface_mesh(shape)), 50);
   Labels segments;
   for (const double scale : {1., 1e-150, 1e140}) {
     const Surface_mesh mesh = meshes::surface_mesh(meshes::scaled(shape, scale));
-    const Labels scaled = segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), 8);
+    const Labels scaled = segments_of(mesh, fragments, Size_aware_cost(), 8);
     if (segments.empty()) segments = scaled;
     EXPECT_EQ(scaled, segments) << "scale " << scale;
   }
@@ -246,8 +248,7 @@ TEST(MergeSegments, ComponentsAreNeverJoined) {
   Labels fragments(num_faces(mesh));
   std::iota(fragments.begin(), fragments.end(), std::size_t(0));
   Face_labels<Surface_mesh> ids(mesh, fragments);
-  const auto hierarchy =
-      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost());
   EXPECT_EQ(hierarchy.number_of_components(), 2u);
   EXPECT_EQ(hierarchy.segments(Segment_count_stop(2), ids.map()), 2u);
   Labels expected(num_faces(mesh), 0);
@@ -259,7 +260,7 @@ TEST(MergeSegments, ComponentsAreNeverJoined) {
 
 TEST(MergeSegments, FlatMeshMergesAtNoCost) {  // 0 / 0 in Eq. 10
   const Surface_mesh mesh = meshes::surface_mesh(meshes::plane(10));
-  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 20));
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 20));
   const auto hierarchy =
       merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Relative_boundary_cost());
   ASSERT_EQ(hierarchy.merges().size(), 19u);
@@ -276,7 +277,7 @@ TEST(MergeSegments, RegionsThatMeetInAnEdgeWithoutLengthAreMergedLast) {
     Face_labels<Surface_mesh> ids(mesh, {0, 1, 2});
     const Dihedral_difference<Surface_mesh> difference(mesh);
     const auto hierarchy = relative ? merge_segments(mesh, ids.map(), difference, Relative_boundary_cost())
-                                    : merge_segments(mesh, ids.map(), difference, Size_aware_cost<Surface_mesh>(mesh));
+                                    : merge_segments(mesh, ids.map(), difference, Size_aware_cost());
     ASSERT_EQ(hierarchy.merges().size(), 2u);
     EXPECT_TRUE(std::isfinite(hierarchy.merges()[0].cost));
     EXPECT_EQ(hierarchy.merges()[1].cost, std::numeric_limits<double>::infinity());
@@ -297,7 +298,7 @@ TEST(MergeSegments, RejectsACostThatIsNoNumber) {
 
 TEST(MergeSegments, CallbackSeesProgressAndCancels) {
   const Surface_mesh mesh = bumpy_torus();
-  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 500));
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 500));
   const Dihedral_difference<Surface_mesh> difference(mesh);
   std::vector<double> seen;
   const std::function<bool(double)> watch = [&](double done) { return seen.push_back(done), true; };
@@ -314,21 +315,20 @@ TEST(MergeSegments, CallbackSeesProgressAndCancels) {
 
 TEST(MergeSegments, LabelsMayBeAnyIntegers) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 20);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 20);
   std::map<Surface_mesh::Face_index, int> odd;
   for (const auto f : faces(mesh)) odd[f] = static_cast<int>(fragments[f]) * 1000000 - 5;
   Face_labels<Surface_mesh> ids(mesh);
   const auto hierarchy = merge_segments(mesh, boost::make_assoc_property_map(odd),
-                                        Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+                                        Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost());
   EXPECT_EQ(hierarchy.segments(Segment_count_stop(5), ids.map()), 5u);
-  EXPECT_EQ(ids.values(), segments_of(mesh, fragments, Size_aware_cost<Surface_mesh>(mesh), 5));
+  EXPECT_EQ(ids.values(), segments_of(mesh, fragments, Size_aware_cost(), 5));
 }
 
 TEST(MergeSegments, EmptyMeshHasAnEmptyHierarchy) {
   const Surface_mesh mesh;
   Face_labels<Surface_mesh> ids(mesh);
-  const auto hierarchy =
-      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost());
   EXPECT_EQ(hierarchy.segments(Cost_threshold_stop(1), ids.map()), 0u);
 }
 
@@ -337,23 +337,22 @@ class MergeSegmentsOn : public testing::Test {};
 TYPED_TEST_SUITE(MergeSegmentsOn, meshes::Holders);
 
 TYPED_TEST(MergeSegmentsOn, EveryKindOfMesh) {
-  using Mesh = typename TypeParam::Mesh;
   const meshes::Shape shape = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.03);
   const Surface_mesh reference = meshes::surface_mesh(shape);
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(reference), 50);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(reference), 50);
   const TypeParam held(shape);
-  EXPECT_EQ(segments_of(held.mesh, fragments, Size_aware_cost<Mesh>(held.mesh), 9),
-            segments_of(reference, fragments, Size_aware_cost<Surface_mesh>(reference), 9));
+  EXPECT_EQ(segments_of(held.mesh, fragments, Size_aware_cost(), 9),
+            segments_of(reference, fragments, Size_aware_cost(), 9));
 }
 
 // ---- The hierarchy ----
 
 TEST(SegmentHierarchy, LevelsAreNestedAndHaveEveryNumberOfSegments) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 40);
   Face_labels<Surface_mesh> ids(mesh, fragments);
   const Segment_hierarchy hierarchy =
-      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost());
   Labels finer = fragments;
   for (std::size_t number = 40; number >= 1; --number) {
     ASSERT_EQ(hierarchy.segments(Segment_count_stop(number), ids.map()), number);
@@ -369,7 +368,7 @@ TEST(SegmentHierarchy, LevelsAreNestedAndHaveEveryNumberOfSegments) {
 
 TEST(SegmentHierarchy, FragmentsKeepTheirIdsAtTheFinestLevel) {
   const Surface_mesh mesh = bumpy_torus();
-  const Labels fragments = cells(Mesh_dual_graph<Surface_mesh>(mesh), 40);
+  const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 40);
   EXPECT_EQ(segments_of(mesh, fragments, Relative_boundary_cost(), 40), fragments);
 }
 
@@ -404,9 +403,8 @@ TEST(StopPredicates, StopWhereTheySay) {
 
 TEST(StopPredicates, MayBeTheUsersOwn) {
   const Surface_mesh mesh = bumpy_torus();
-  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_dual_graph<Surface_mesh>(mesh), 40));
-  const auto hierarchy =
-      merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost<Surface_mesh>(mesh));
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 40));
+  const auto hierarchy = merge_segments(mesh, ids.map(), Dihedral_difference<Surface_mesh>(mesh), Size_aware_cost());
   const auto half = [](const Merge_tree& tree) { return tree.number_of_fragments() / 2; };
   EXPECT_EQ(hierarchy.segments(half, ids.map()), 20u);
   EXPECT_EQ(number_of_labels(ids.values()), 20u);

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The files that the tool reads and writes, and how it makes a surface of them.
 
 #include "../examples/mesh_files.h"

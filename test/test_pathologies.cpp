@@ -17,6 +17,7 @@
 #include <boost/range/adaptor/transformed.hpp>
 
 #include <gtest/gtest.h>
+#include "mesh_graph.h"
 #include "meshes.h"
 #include "networks.h"
 
@@ -87,7 +88,7 @@ class Written {
 
 template <class Mesh>
 auto equal_conductances(const Mesh&) {
-  return boost::make_function_property_map<Edge<Mesh>>([](const Edge<Mesh>&) { return 1.; });
+  return as_conductance(boost::make_function_property_map<Edge<Mesh>>([](const Edge<Mesh>&) { return 1.; }));
 }
 
 template <class Mesh>
@@ -97,7 +98,7 @@ Conductance<Mesh> dihedral_conductances(const Mesh& mesh, double sigma = 1, doub
 
 template <class Mesh, class ConductanceMap>
 networks::Network network_of(const Mesh& mesh, const ConductanceMap& conductance) {
-  const Mesh_dual_graph<Mesh> graph(mesh);
+  const meshes::Mesh_graph<Mesh> graph(mesh);
   networks::Network network{graph, {}};
   for (const auto& e : graph.edge_descriptors()) network.conductances.push_back(get(conductance, e));
   return network;
@@ -376,9 +377,9 @@ TYPED_TEST(MeshPathologies, FaceWithoutAreaIsTransparent) {
   const auto face = faces_of(held.mesh);
   const Dihedral_difference<Mesh> difference(held.mesh);
   for (const auto e : edges(held.mesh)) EXPECT_TRUE(std::isfinite(get(difference, e)));
-  const Mesh_dual_graph<Mesh> graph(held.mesh);
+  const meshes::Mesh_graph<Mesh> graph(held.mesh);
   for (const auto& [next, edge] : graph.neighbours(1)) EXPECT_EQ(get(difference, graph.edge(edge)), 0) << next;
-  EXPECT_EQ(internal::face_geometry(held.mesh, graph, CGAL::parameters::default_values()).degenerate_faces, 1u);
+  EXPECT_EQ(Dual_mesh_of<Mesh>(held.mesh).number_of_degenerate_faces(), 1u);
 
   // It keeps its neighbours: with seeds below and above, walks cross it both ways.
   EXPECT_LE(largest_relative_error(held.mesh, dihedral_conductances(held.mesh), Star_mesh_elimination(), {0, 2}),
@@ -399,7 +400,7 @@ TYPED_TEST(MeshPathologies, EdgeWithoutLengthDoesNotCutTheGraph) {
   const TypeParam held(shape);
   const auto face = faces_of(held.mesh);
   const auto conductance = dihedral_conductances(held.mesh);
-  const Mesh_dual_graph<Mesh> graph(held.mesh);
+  const meshes::Mesh_graph<Mesh> graph(held.mesh);
   ASSERT_EQ(graph.number_of_edges(), 1u);
   EXPECT_GT(get(conductance, graph.edge(0)), 0);
   Written<Mesh> labels;
@@ -604,11 +605,11 @@ TEST(Pathologies, NumberOutOfRangeIsAnErrorThatNamesIt) {
     const auto map =
         boost::make_function_property_map<Edge<Surface_mesh>>([value](const Edge<Surface_mesh>&) { return value; });
     expect_named(message_of<Invalid>([&] { Conductance<Surface_mesh>(mesh, map); }), "difference");
-    expect_named(message_of<Invalid>([&] { Random_walk(mesh, map); }), "conductance");
+    expect_named(message_of<Invalid>([&] { Random_walk(mesh, as_conductance(map)); }), "conductance");
   }
   const auto infinite =
       boost::make_function_property_map<Edge<Surface_mesh>>([](const Edge<Surface_mesh>&) { return infinity; });
-  expect_named(message_of<Invalid>([&] { Random_walk(mesh, infinite); }), "conductance");
+  expect_named(message_of<Invalid>([&] { Random_walk(mesh, as_conductance(infinite)); }), "conductance");
   EXPECT_NO_THROW(Conductance<Surface_mesh>(mesh, infinite));
 }
 
@@ -721,7 +722,7 @@ TYPED_TEST(MeshPathologies, SeveralEdgesBetweenTwoFacesAddUp) {
   shape.faces = {{0, 3, 2, 1}, {0, 1, 2, 4}, {0, 4, 5}};
   const TypeParam held(shape);
   const auto face = faces_of(held.mesh);
-  const Mesh_dual_graph<Mesh> graph(held.mesh);
+  const meshes::Mesh_graph<Mesh> graph(held.mesh);
   ASSERT_EQ(graph.number_of_edges(), 3u);
   Random_walk walk(held.mesh, equal_conductances(held.mesh));
   walk.add_seed(face[0], 0);
@@ -755,7 +756,7 @@ TEST(Pathologies, FacesFoldedOntoEachOtherDifferByAFixedRule) {
       const Eigen::AngleAxisd turn(k * 0.37, Eigen::Vector3d(1, k, 2 - k).normalized());
       Shape turned = meshes::transformed(folded, Eigen::Affine3d(turn));
       const Surface_mesh mesh = meshes::surface_mesh(turned);
-      const Mesh_dual_graph<Surface_mesh> graph(mesh);
+      const meshes::Mesh_graph<Surface_mesh> graph(mesh);
       const Dihedral_difference<Surface_mesh> difference(mesh);
       for (std::size_t e = 0; e < 2; ++e) {
         const auto [f, g] = graph.faces_of(static_cast<Dual_graph::Index>(e));

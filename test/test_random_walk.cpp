@@ -1,5 +1,6 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Random_walk.h>
 
@@ -12,9 +13,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -24,7 +29,7 @@ namespace {
 template <class Mesh>
 auto equal_conductances() {
   using edge_descriptor = typename boost::graph_traits<Mesh>::edge_descriptor;
-  return boost::make_function_property_map<edge_descriptor>([](const edge_descriptor&) { return 1.; });
+  return as_conductance(boost::make_function_property_map<edge_descriptor>([](const edge_descriptor&) { return 1.; }));
 }
 
 template <class Mesh>
@@ -68,15 +73,17 @@ TYPED_TEST(Walk, GivesTheSamePotentialsAsADenseSolve) {
   const TypeParam held(meshes::with_noise(meshes::sphere(2), 0.03));
   const auto conductance = dihedral_conductances(held.mesh);
   Face_labels<typename TypeParam::Mesh> labels(held.mesh);
-  networks::Network network{labels.graph(), {}};
-  for (const auto& e : labels.graph().edge_descriptors()) network.conductances.push_back(get(conductance, e));
+  const Dual_mesh_of dual(held.mesh);
+  networks::Network network{dual.graph(), {}};
+  for (const auto& e : dual.edge_descriptors()) network.conductances.push_back(get(conductance, e));
   const std::vector<networks::Index> seeds = {3, 100, 200, 250};
   Random_walk walk(held.mesh, conductance);
-  for (std::size_t l = 0; l < seeds.size(); ++l) walk.add_seed(labels.face(seeds[l]), 10 * l);
+  for (std::size_t l = 0; l < seeds.size(); ++l) walk.add_seed(dual.face(seeds[l]), 10 * l);
   const auto dense = networks::dense_potentials<long double>(network, seeds);
   for (std::size_t f = 0; f < dense.size(); ++f)
     for (std::size_t l = 0; l < seeds.size(); ++l)
-      ASSERT_NEAR(walk.probability(labels.face(f), 10 * l), static_cast<double>(dense[f][l]), 1e-9);
+      ASSERT_NEAR(walk.probability(dual.face(static_cast<networks::Index>(f)), 10 * l),
+                  static_cast<double>(dense[f][l]), 1e-9);
   EXPECT_EQ(walk.probability(labels.face(0), 5), 0);
 }
 
@@ -124,6 +131,83 @@ TYPED_TEST(Walk, MakesConnectedSegmentsOfTwoLabels) {
   EXPECT_EQ(raw, labels.values());
 }
 
+TYPED_TEST(Walk, OnAMeshThatHasBeenReadIsTheWalkOnTheMesh) {
+  const TypeParam held(meshes::with_noise(meshes::torus(2, 0.7, 20, 10), 0.02));
+  using Mesh = typename TypeParam::Mesh;
+  Face_labels<Mesh> expected(held.mesh), labels(held.mesh);
+  const auto conductance = dihedral_conductances(held.mesh);
+  const std::vector<typename Face_labels<Mesh>::face_descriptor> seeds = {expected.face(5), expected.face(105),
+                                                                          expected.face(205)};
+  segmentation_from_seeds(held.mesh, conductance, seeds, expected.map());
+  const Dual_mesh_of<Mesh> dual(held.mesh);
+  EXPECT_EQ(segmentation_from_seeds(dual, conductance, seeds, labels.map()), 3u);
+  EXPECT_EQ(labels.values(), expected.values());
+  Random_walk walk(Dual_mesh_of<Mesh>(held.mesh), conductance);  // keeps a copy
+  for (std::size_t s = 0; s < seeds.size(); ++s) walk.add_seed(seeds[s], s);
+  walk.segment(labels.map());
+  EXPECT_EQ(labels.values(), expected.values());
+}
+
+TYPED_TEST(Walk, StepsOverNoConstrainedEdge) {
+  const TypeParam held(meshes::cube(4));
+  using Mesh = typename TypeParam::Mesh;
+  using edge_descriptor = typename boost::graph_traits<Mesh>::edge_descriptor;
+  const Dual_mesh_of<Mesh> dual(held.mesh);
+  const auto is_wall = boost::make_function_property_map<edge_descriptor>([&](const edge_descriptor& e) {
+    const auto index = [&](auto h) { return dual.index(face(h, held.mesh)); };
+    return dual.normals()[index(halfedge(e, held.mesh))] !=
+           dual.normals()[index(opposite(halfedge(e, held.mesh), held.mesh))];
+  });
+  Face_labels<Mesh> labels(held.mesh);
+  Random_walk walk(held.mesh, equal_conductances<Mesh>(), CGAL::parameters::edge_is_constrained_map(is_wall));
+  walk.add_seed(labels.face(0), 0);
+  EXPECT_EQ(walk.segment(labels.map()), 6u);
+  for (std::size_t f = 0; f < labels.values().size(); ++f)
+    for (std::size_t g = 0; g < f; ++g)
+      EXPECT_EQ(labels.values()[f] == labels.values()[g],
+                dual.normals()[dual.index(labels.face(f))] == dual.normals()[dual.index(labels.face(g))]);
+}
+
+// ---- Arguments ----
+
+TEST(RandomWalk, TakesNamedParametersInThePlaceOfTheSolver) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(2));
+  Face_labels<meshes::Surface_mesh> labels(mesh);
+  std::size_t calls = 0;
+  const std::function<bool(double)> callback = [&](double) { return ++calls > 0; };
+  Random_walk walk(mesh, dihedral_conductances(mesh), CGAL::parameters::callback(callback));
+  static_assert(std::is_same_v<decltype(walk), Random_walk<meshes::Surface_mesh>>);
+  walk.add_seed(labels.face(0), 0);
+  walk.add_seed(labels.face(1), 1);
+  walk.segment(labels.map());
+  EXPECT_GT(calls, 0u);
+}
+
+TEST(RandomWalk, TellsWhichFaceIsNoneOfTheMesh) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  const auto stranger = meshes::Surface_mesh::Face_index(1000);
+  Random_walk walk(mesh, dihedral_conductances(mesh));
+  const auto message = [&](const auto& work) -> std::string {
+    try {
+      work();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message([&] { walk.add_seed(stranger, 0); }), "the seed is not a face of the mesh");
+  walk.add_seed(meshes::Surface_mesh::Face_index(0), 0);
+  EXPECT_EQ(message([&] { walk.probability(stranger, 0); }), "the face is not a face of the mesh");
+}
+
+TEST(RandomWalk, CountsFacesWithoutArea) {
+  auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  const auto h = mesh.halfedge(meshes::Surface_mesh::Face_index(0));
+  mesh.point(mesh.source(h)) = CGAL::midpoint(mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+  const Random_walk walk(mesh, equal_conductances<meshes::Surface_mesh>());
+  EXPECT_EQ(walk.report().degenerate_faces, 1u);
+}
+
 // ---- Invariance ----
 
 TEST(RandomWalk, DoesNotDependOnScalePlaceRotationOrOrderOfFaces) {
@@ -157,29 +241,26 @@ TEST(RandomWalk, DoesNotDependOnScalePlaceRotationOrOrderOfFaces) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shuffled[i], expected[order[i]]);
 }
 
-TEST(DualGraph, RenumberedIsTheSameGraphWithNeighboursClose) {
+TEST(DualMesh, HasTheGraphOfTheMeshWithNeighboursClose) {
   const meshes::Shape sphere = meshes::sphere(4);
   const auto order = meshes::random_order(sphere.faces.size());
   const auto mesh = meshes::surface_mesh(meshes::with_faces_in_order(sphere, order));
-  const Mesh_dual_graph<meshes::Surface_mesh> before(mesh);
-  Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
-  const std::vector<Dual_graph::Index> former_edge = graph.renumber_along_surface();
+  const Dual_mesh_of dual(mesh);
+  const Dual_graph& graph = dual.graph();
 
-  ASSERT_EQ(graph.number_of_faces(), before.number_of_faces());
-  ASSERT_EQ(graph.number_of_edges(), before.number_of_edges());
-  for (Dual_graph::Index f = 0; f < graph.number_of_faces(); ++f) EXPECT_EQ(graph.index(graph.face(f)), f);
+  ASSERT_EQ(graph.number_of_faces(), mesh.number_of_faces());
+  ASSERT_EQ(graph.number_of_edges(), mesh.number_of_edges());
+  for (Dual_graph::Index f = 0; f < graph.number_of_faces(); ++f) EXPECT_EQ(dual.index(dual.face(f)), f);
   std::set<meshes::Surface_mesh::Edge_index> edges;
   double distance = 0, distance_before = 0;
   for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e) {
-    EXPECT_EQ(graph.edge(e), before.edge(former_edge[e]));
-    edges.insert(graph.edge(e));
-    const auto h = halfedge(graph.edge(e), mesh);
+    edges.insert(dual.edge(e));
+    const auto h = halfedge(dual.edge(e), mesh);
     const auto [f, g] = graph.faces_of(e);
-    EXPECT_EQ(graph.face(f), face(h, mesh));
-    EXPECT_EQ(graph.face(g), face(opposite(h, mesh), mesh));
+    EXPECT_EQ(dual.face(f), face(h, mesh));
+    EXPECT_EQ(dual.face(g), face(opposite(h, mesh), mesh));
     distance = std::max(distance, std::abs(double(f) - double(g)));
-    const auto [i, j] = before.faces_of(e);
-    distance_before = std::max(distance_before, std::abs(double(i) - double(j)));
+    distance_before = std::max(distance_before, std::abs(double(dual.place(f)) - double(dual.place(g))));
   }
   EXPECT_EQ(edges.size(), graph.number_of_edges());
   EXPECT_LT(distance, distance_before / 10);

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The command-line tool segment_mesh, run as a program.
 
 #include <gtest/gtest.h>
@@ -479,6 +481,9 @@ TEST_F(Segment_mesh_tool, APageHoldsMeshLabelsAndLevels) {
   const auto page = result_in_page(content_of(path("result.html")), before, after);
   EXPECT_EQ(page["name"], name);
   EXPECT_EQ(page["mode"], "graphical");
+  EXPECT_EQ(page["policies"]["difference"], "concavity");
+  EXPECT_EQ(page["policies"]["seeding"], "farthest");
+  EXPECT_EQ(page["policies"]["mergeCost"], "size");
   EXPECT_EQ(page["seeds"].size(), 0U);
   EXPECT_EQ(page["segments"], 3);
 
@@ -631,6 +636,286 @@ TEST_F(Segment_mesh_tool, AMeshOfOneFaceIsOneSegment) {
   EXPECT_EQ(labels("one.seg"), (std::vector<std::size_t>{0}));
   ASSERT_EQ(run({"one.off", "--labels", "one.seg", "--seed", "0=4"}).exit_code, 0);
   EXPECT_EQ(labels("one.seg"), (std::vector<std::size_t>{4}));
+}
+
+// ---- Policies by name ----
+
+struct Choice {
+  std::string option;
+  std::vector<std::string> names;
+};
+
+const std::vector<Choice> choices = {{"--difference", {"dihedral", "concavity", "curvature"}},
+                                     {"--seeding", {"farthest", "particles", "coarse"}},
+                                     {"--merge-cost", {"size", "boundary"}},
+                                     {"--solver", {"star-mesh", "eigen"}}};
+
+TEST_F(Segment_mesh_tool, EachChoiceGivesAsManySegmentsAsAskedForAndIsReported) {
+  write("tower.off", tower(3));
+  for (const auto& [option, names] : choices)
+    for (const std::string& name : names) {
+      const Result result =
+          run({"tower.off", option, name, "--segments", "5", "--labels", "t.seg", "--report", "r.json"});
+      ASSERT_EQ(result.exit_code, 0) << name << result.errors;
+      const auto found = labels("t.seg");
+      EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()).size(), 5U) << name;
+      std::string key = option.substr(2);
+      std::replace(key.begin(), key.end(), '-', '_');
+      EXPECT_EQ(nlohmann::json::parse(content_of(path("r.json")))["parameters"][key], name);
+    }
+}
+
+TEST_F(Segment_mesh_tool, ThePresetsAreChoices) {
+  write("tower.off", tower(3));
+  const auto outcome = [&](const std::vector<std::string>& arguments) {
+    const Result result =
+        run(std::vector<std::string>{"tower.off", "--labels", "t.seg", "--report", "r.json"} + arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return std::pair(labels("t.seg"), nlohmann::json::parse(content_of(path("r.json")))["parameters"]);
+  };
+  EXPECT_EQ(outcome({}), outcome({"--difference", "concavity", "--seeding", "farthest", "--merge-cost", "size",
+                                  "--solver", "star-mesh"}));
+  EXPECT_EQ(outcome({"--paper"}), outcome({"--difference", "dihedral", "--smoothing", "0", "--seeding", "particles",
+                                           "--seeds", "60", "--merge-cost", "boundary"}));
+  EXPECT_EQ(outcome({"--seed", "0", "--seed", "900", "--paper"}),
+            outcome({"--seed", "0", "--seed", "900", "--difference", "dihedral", "--smoothing", "0"}));
+}
+
+TEST_F(Segment_mesh_tool, UnknownChoicesAreRefusedAndTheKnownOnesNamed) {
+  write("strip.off", strip(3));
+  for (const auto& [option, names] : choices) {
+    std::string known;
+    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+    for (const char* wrong : {"other", "0"})
+      expect_failure(1, option + ": " + wrong + " is none of " + known, {"strip.off", option + "=" + wrong});
+    EXPECT_NE(run({"--help"}).output.find(option), std::string::npos);
+  }
+}
+
+TEST_F(Segment_mesh_tool, ChoicesThatMakeNoSenseTogetherAreRefused) {
+  write("strip.off", strip(3));
+  const auto expect = [&](const std::string& text, const std::vector<std::string>& arguments) {
+    expect_failure(1, text, std::vector<std::string>{"strip.off", "--labels", "l.seg"} + arguments);
+  };
+  for (const auto& [option, names] : choices)
+    expect("leave out --engineering or " + option, {"--engineering", option, names[0]});
+  for (const char* number : {"--smoothing", "--convex-weight", "--sigma", "--cap"})
+    expect(std::string("leave out --engineering or ") + number, {"--engineering", number, "1"});
+  expect("give --difference curvature", {"--radius", "2"});
+  expect("give --difference curvature", {"--difference", "dihedral", "--radius", "2"});
+  expect("--convex-weight", {"--difference", "curvature", "--convex-weight", "1"});
+  expect("--measure", {"--difference", "curvature", "--measure", "angle"});
+  expect("leave one of the two out", {"--coarse", "--seeding", "coarse"});
+  expect("give --seeding coarse in its place", {"--coarse", "--merge-cost", "size"});
+  expect("give --segments or --seeds", {"--seed", "0", "--seeding", "particles"});
+  expect("give --segments or --seeds", {"--seed", "0", "--merge-cost", "size"});
+  for (const char* angle : {"0", "-1", "180", "nan"}) expect("--constraints-angle", {"--constraints-angle", angle});
+}
+
+TEST_F(Segment_mesh_tool, SeedsFollowTheNumberOfSegments) {
+  write("tower.off", tower(2));
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {}, {"--paper"}, {"--seeding", "particles"}, {"--seeding", "coarse"}, {"--difference", "curvature"}}) {
+    const Result result =
+        run(std::vector<std::string>{"tower.off", "--segments", "70", "--labels", "t.seg", "--quiet"} + arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const auto found = labels("t.seg");
+    EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()).size(), 70U);
+  }
+  expect_failure(3, "more seeds make more", {"tower.off", "--segments", "70", "--seeds", "60", "--quiet"});
+}
+
+TEST_F(Segment_mesh_tool, CoarseSeedsMayBeMerged) {
+  write("tower.off", tower(3));
+  ASSERT_EQ(run({"tower.off", "--seeding", "coarse", "--hierarchy", "h.json"}).exit_code, 0);
+  const std::size_t fragments = nlohmann::json::parse(content_of(path("h.json")))["fragments"];
+  EXPECT_GE(fragments, 3U);
+  EXPECT_LT(fragments, 20U);
+  ASSERT_EQ(run({"tower.off", "--seeding", "coarse", "--seeds", "7", "--hierarchy", "h.json"}).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("h.json")))["fragments"], 7);
+}
+
+TEST_F(Segment_mesh_tool, BothSolversGiveTheSameProbabilities) {
+  write("tower.off", tower(2));
+  const std::vector<std::string> seeds = {"tower.off", "--seed", "100", "--seed", "300", "--seed", "600"};
+  const auto probabilities = [&](const std::string& solver) {
+    EXPECT_EQ(run(seeds + std::vector<std::string>{"--solver", solver, "--probabilities", "p.txt"}).exit_code, 0);
+    std::istringstream file(content_of(path("p.txt")));
+    std::string names;
+    std::getline(file, names);
+    return std::vector<double>{std::istream_iterator<double>(file), {}};
+  };
+  const auto first = probabilities("star-mesh"), second = probabilities("eigen");
+  ASSERT_EQ(first.size(), 3U * 2 * 16 * 24);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_NEAR(first[i], second[i], 1e-6);
+}
+
+TEST_F(Segment_mesh_tool, TheRadiusOfCurvaturesIsTheUsers) {
+  write("tower.off", tower(2));
+  const auto found = [&](const std::vector<std::string>& radius) {
+    const Result result = run(std::vector<std::string>{"tower.off", "--difference", "curvature", "--segments", "6",
+                                                       "--labels", "t.seg", "--report", "r.json"} +
+                              radius);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return labels("t.seg");
+  };
+  const auto usual = found({});
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("r.json")))["parameters"]["radius"], 3);
+  EXPECT_EQ(found({"--radius", "3"}), usual);
+  EXPECT_NE(found({"--radius", "8"}), usual);
+  for (const char* radius : {"0", "-1", "nan", "inf"})
+    expect_failure(3, "radius is ", {"tower.off", "--difference", "curvature", "--radius", radius, "--quiet"});
+}
+
+// ---- Walls ----
+
+/// The edges of a file of squares that hold for a condition on their two points, as the tool takes walls.
+std::string edges_where(const std::string& off,
+                        const std::function<bool(const std::array<double, 3>&, const std::array<double, 3>&)>& holds) {
+  std::istringstream file(off);
+  std::string word;
+  std::size_t points = 0, faces = 0, edges = 0;
+  file >> word >> points >> faces >> edges;
+  std::vector<std::array<double, 3>> point(points);
+  for (auto& [x, y, z] : point) file >> x >> y >> z;
+  std::ostringstream walls;
+  walls << "# two vertices a line\n\n";
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t degree = 0;
+    std::array<std::size_t, 4> v{};
+    file >> degree >> v[0] >> v[1] >> v[2] >> v[3];
+    for (std::size_t i = 0; i < 4; ++i)
+      if (holds(point[v[i]], point[v[(i + 1) % 4]])) walls << v[i] << ' ' << v[(i + 1) % 4] << "  # of a face\n";
+  }
+  return walls.str();
+}
+
+TEST_F(Segment_mesh_tool, NoSegmentLiesOnBothSidesOfAClosedLoopOfWalls) {
+  constexpr std::size_t n = 6;
+  const std::string cube = cube_of_separate_squares(n);
+  write("cube.off", cube);
+  write("belt.txt", edges_where(cube, [](const auto& p, const auto& q) { return p[2] == 0.5 && q[2] == 0.5; }));
+  // z grows with the columns of the sides y = 0 and x = 1 and with the rows of y = 1 and x = 0.
+  const auto is_above = [](std::size_t f) {
+    const std::size_t side = f / (n * n), row = f % (n * n) / n, column = f % n;
+    return side == 1 || ((side == 2 || side == 3) && column >= n / 2) || (side > 3 && row >= n / 2);
+  };
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{},
+                                                                     {"--segments", "2"},
+                                                                     {"--paper"},
+                                                                     {"--coarse"},
+                                                                     {"--engineering"},
+                                                                     {"--engineering", "--segments", "2"},
+                                                                     {"--difference", "curvature"},
+                                                                     {"--seeding", "coarse", "--segments", "2"},
+                                                                     {"--merge-cost", "boundary", "--segments", "3"},
+                                                                     {"--solver", "eigen", "--segments", "2"},
+                                                                     {"--seed", "0"},
+                                                                     {"--seed", "0", "--solver", "eigen"},
+                                                                     {"--seed", "0", "--segments", "2"}}) {
+    const Result result = run(
+        std::vector<std::string>{"cube.off", "--constraints", "belt.txt", "--labels", "c.seg", "--report", "c.json"} +
+        arguments);
+    const std::string shown = testing::PrintToString(arguments);
+    ASSERT_EQ(result.exit_code, 0) << shown << result.errors;
+    const auto found = labels("c.seg");
+    ASSERT_EQ(found.size(), 6 * n * n);
+    std::set<std::size_t> above, below, both;
+    for (std::size_t f = 0; f < found.size(); ++f) (is_above(f) ? above : below).insert(found[f]);
+    std::set_intersection(above.begin(), above.end(), below.begin(), below.end(), std::inserter(both, both.end()));
+    EXPECT_TRUE(both.empty()) << shown;
+    EXPECT_EQ(nlohmann::json::parse(content_of(path("c.json")))["walls"], 4 * n) << shown;
+  }
+  expect_failure(3, "the number of segments is 1, but must be from 2",
+                 {"cube.off", "--constraints", "belt.txt", "--segments", "1", "--quiet"});
+}
+
+TEST_F(Segment_mesh_tool, EdgesSharperThanAnAngleAreWalls) {
+  constexpr std::size_t n = 5;
+  write("cube.off", cube_of_separate_squares(n));
+  ASSERT_EQ(run({"cube.off", "--constraints-angle", "45", "--segments", "6", "--labels", "c.seg", "--report", "c.json"})
+                .exit_code,
+            0);
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("c.json")))["walls"], 12 * n);
+  std::set<std::pair<std::size_t, std::size_t>> pairs;  // side, label
+  const auto found = labels("c.seg");
+  for (std::size_t f = 0; f < found.size(); ++f) pairs.emplace(f / (n * n), found[f]);
+  EXPECT_EQ(pairs.size(), 6U);
+  ASSERT_EQ(run({"cube.off", "--constraints-angle", "91", "--labels", "c.seg", "--report", "c.json"}).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("c.json")))["walls"], 0);
+}
+
+TEST_F(Segment_mesh_tool, AWallThatEndsIsWalkedRound) {
+  write("strip.off", strip(10));
+  write("whole.txt", "10 11\n");
+  ASSERT_EQ(run({"strip.off", "--seed", "0", "--constraints", "whole.txt", "--labels", "s.seg"}).exit_code, 0);
+  std::vector<std::size_t> expected(10, 0);
+  expected.resize(20, 1);
+  EXPECT_EQ(labels("s.seg"), expected);
+
+  write("grid.off", grid(4));
+  write("part.txt", "2 7\n7 12\n");
+  ASSERT_EQ(run({"grid.off", "--seed", "0", "--constraints", "part.txt", "--labels", "g.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("g.seg"), std::vector<std::size_t>(16, 0));
+}
+
+TEST_F(Segment_mesh_tool, BoundariesOnWallsAreNotSmoothed) {
+  const int n = 12;
+  std::ostringstream sheet, stairs;
+  sheet << "OFF\n" << (n + 1) * (n + 1) << ' ' << 2 * n * n << " 0\n";
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) sheet << x << ' ' << y << " 0\n";
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int a = y * (n + 1) + x;
+      sheet << "3 " << a << ' ' << a + 1 << ' ' << a + n + 2 << "\n3 " << a << ' ' << a + n + 2 << ' ' << a + n + 1
+            << '\n';
+    }
+  for (int y = 0; y < n; ++y) {  // up one step, and one to the side
+    const int a = y * (n + 1) + 6 + y % 2, up = a + n + 1;
+    stairs << a << ' ' << up << '\n';
+    if (y + 1 < n) stairs << up << ' ' << (y % 2 == 0 ? up + 1 : up - 1) << '\n';
+  }
+  write("sheet.off", sheet.str());
+  write("stairs.txt", stairs.str());
+  const auto faces = [&](const std::vector<std::string>& arguments) {
+    const Result result = run(std::vector<std::string>{"sheet.off", "--seed", "0", "--seed",
+                                                       std::to_string(2 * n * n - 1), "--labels", "s.seg"} +
+                              arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return labels("s.seg").size();
+  };
+  EXPECT_EQ(faces({"--constraints", "stairs.txt", "--refine"}), std::size_t(2 * n * n));
+  EXPECT_GT(faces({"--refine"}), std::size_t(2 * n * n));
+}
+
+TEST_F(Segment_mesh_tool, EachMeshHasItsOwnFileOfWalls) {
+  write("a.off", strip(4));
+  write("b.off", strip(4));
+  write("a.txt", "2 3\n");
+  write("b.txt", "6 7\n");
+  ASSERT_EQ(run({"a.off", "b.off", "--seed", "0", "--constraints", "%.txt", "--labels", "%.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("a.seg"), (std::vector<std::size_t>{0, 0, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(labels("b.seg"), (std::vector<std::size_t>{0, 0, 0, 0, 0, 0, 1, 1}));
+}
+
+TEST_F(Segment_mesh_tool, AWrongWallIsRefusedWithItsLine) {
+  write("strip.off", strip(3));
+  const auto expect = [&](int code, const std::string& text, const std::string& walls) {
+    write("walls.txt", walls);
+    expect_failure(code, text, {"strip.off", "--seed", "0", "--labels", "l.seg", "--constraints", "walls.txt"});
+  };
+  expect(3, "walls.txt:3: no edge of the mesh joins vertex 0 and vertex 5", "# walls\n2 3\n0 5\n");
+  expect(3, "walls.txt:1: no edge of the mesh joins vertex 2 and vertex 2", "2 2\n");
+  expect(3, "walls.txt:2: the file has 8 vertices, the first is vertex 0", "2 3\n2 8\n");
+  expect(2, "walls.txt:2: the second vertex is missing", "2 3\n2\n");
+  expect(2, "walls.txt:1: the first vertex is 'x', not a whole number", "x 3\n");
+  expect(2, "walls.txt:1: the first vertex is negative: -1", "-1 3\n");
+  expect(2, "walls.txt:1: an edge has two vertices, and here is more", "2 3 4\n");
+  expect_failure(2, "missing.txt: No such file", {"strip.off", "--seed", "0", "--constraints", "missing.txt"});
+  write("walls.txt", "# none\n");
+  EXPECT_EQ(run({"strip.off", "--seed", "0", "--constraints", "walls.txt", "--quiet"}).exit_code, 0);
 }
 
 // ---- Other kinds of output ----

@@ -1,3 +1,4 @@
+#include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include <gtest/gtest.h>
@@ -220,7 +221,7 @@ TEST(AutomaticPathologies, QuadsAreSegmentedLikeTriangles) {
 TEST(AutomaticPathologies, AWrongNumberOfSegmentsIsAnErrorThatWritesNothing) {
   const auto mesh = meshes::surface_mesh(meshes::sphere(1));
   Face_labels<meshes::Surface_mesh> ids(mesh);
-  for (const std::size_t n : {std::size_t(0), std::size_t(41), std::size_t(1000000)})
+  for (const std::size_t n : {std::size_t(0), num_faces(mesh) + std::size_t(1), std::size_t(1000000)})
     EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), Automatic_segmentation(n)), std::invalid_argument);
   EXPECT_EQ(ids.values(), std::vector<std::size_t>(80, ids.untouched));
 }
@@ -246,10 +247,10 @@ TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
   policy.sigma = 0;
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
   policy = Automatic_segmentation();
-  policy.seeds = 0;
+  policy.seeding.count = 0;
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
   policy = Automatic_segmentation();
-  policy.convex_weight = -1;
+  policy.difference.convex_weight = -1;
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
   EXPECT_EQ(ids.values().front(), ids.untouched);
 }

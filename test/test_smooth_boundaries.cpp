@@ -1,3 +1,4 @@
+#include <RW_segmentation/Geodesic_joining.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/smooth_boundaries.h>
 
@@ -5,13 +6,18 @@
 #include "boundaries.h"
 #include "meshes.h"
 
+#include <boost/property_map/function_property_map.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -44,6 +50,13 @@ Labels zigzag(const Shape& shape, int coordinate, double value, double amplitude
     const int side = row(p[(coordinate + 1) % 3], p[(coordinate + 2) % 3]) % 2 == 0 ? 1 : -1;
     return std::size_t(p[coordinate] > value + side * amplitude);
   });
+}
+
+/// The faces on which a point of a curve lies.
+std::set<Surface_mesh::Face_index> faces_at(const Surface_mesh& mesh, const Boundary_point<Surface_mesh>& p) {
+  if (p.position < 1) return {mesh.face(p.halfedge), mesh.face(mesh.opposite(p.halfedge))};
+  const auto range = CGAL::faces_around_target(p.halfedge, mesh);
+  return {range.begin(), range.end()};
 }
 
 Shape bumpy_torus() { return meshes::with_noise(meshes::torus(2, 1, 40, 24), 0.02); }
@@ -214,18 +227,10 @@ TEST(SmoothBoundaries, BranchPointsStay) {
 TEST(SmoothBoundaries, ConsecutivePointsShareAFace) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  const auto faces_at = [&](const Boundary_point<Surface_mesh>& p) {
-    std::set<Surface_mesh::Face_index> result;
-    if (p.position < 1)
-      result = {mesh.face(p.halfedge), mesh.face(mesh.opposite(p.halfedge))};
-    else
-      for (const auto f : CGAL::faces_around_target(p.halfedge, mesh)) result.insert(f);
-    return result;
-  };
   for (const auto& curve : curves_of(mesh, random_cells(shape, 12)))
     for (std::size_t i = curve.is_closed ? 0 : 1; i < curve.points.size(); ++i) {
-      const auto a = faces_at(curve.points[(i + curve.points.size() - 1) % curve.points.size()]);
-      const auto b = faces_at(curve.points[i]);
+      const auto a = faces_at(mesh, curve.points[(i + curve.points.size() - 1) % curve.points.size()]);
+      const auto b = faces_at(mesh, curve.points[i]);
       EXPECT_TRUE(std::any_of(a.begin(), a.end(), [&](auto f) { return b.count(f) > 0; }));
     }
 }
@@ -254,6 +259,245 @@ TEST(SmoothBoundaries, SegmentsLieOnTheSidesTheyAreSaidTo) {
   for (std::size_t i = 0; i < points.size(); ++i) area += points[i].cross(points[(i + 1) % points.size()]);
   EXPECT_EQ(curves[0].segments[0], area.z() > 0 ? 7u : 3u);
   EXPECT_EQ(curves[0].segments[1], area.z() > 0 ? 3u : 7u);
+}
+
+// ---- Walls ----
+
+namespace {
+
+/// Closed loops of walls on a closed mesh, and segments of which some keep to their sides and others do not.
+struct Walled {
+  Shape shape;
+  Surface_mesh mesh = meshes::surface_mesh(shape);
+  Labels sides;
+  Edge_marks walls = edges_between(mesh, sides);
+
+  Walled(Shape closed, unsigned seed) : shape(std::move(closed)), sides(random_cells(shape, 3, seed)) {}
+
+  template <class Joining = Traced_joining>
+  std::vector<Boundary_curve<Surface_mesh>> curves(const Labels& labels, const Joining& joining = {}) {
+    Face_labels<Surface_mesh> ids(mesh, labels);
+    return smooth_boundaries(mesh, ids.map(), {}, joining,
+                             CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walls)));
+  }
+};
+
+}  // namespace
+
+TEST(SmoothBoundaries, NoCurveCrossesAWall) {
+  std::size_t smoothed = 0, crossed_without_walls = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Walled walled(seed % 2 == 0 ? bumpy_torus() : meshes::with_noise(meshes::sphere(3), 0.01), seed);
+    const Surface_mesh& mesh = walled.mesh;
+    const Labels cells = random_cells(walled.shape, 8, seed + 100);
+    const auto crosses = [&](const Boundary_curve<Surface_mesh>& curve) {
+      std::set<std::size_t> sides;  // of the faces that the curve runs across
+      for (std::size_t i = curve.is_closed ? 0 : 1; i < curve.points.size(); ++i) {
+        const auto &p = curve.points[i], &q = curve.points[(i + curve.points.size() - 1) % curve.points.size()];
+        if (p.position < 1 && walled.walls.at(mesh.edge(p.halfedge))) return true;
+        if (p.position == 1 && q.position == 1) continue;
+        for (const auto f : faces_at(mesh, p))
+          if (faces_at(mesh, q).count(f)) sides.insert(walled.sides[f]);
+      }
+      return sides.size() > 1;
+    };
+    for (const Labels& labels : {cells, products(cells, walled.sides)}) {
+      for (const auto& curves : {walled.curves(labels), walled.curves(labels, Geodesic_joining())})
+        for (const auto& curve : curves) {
+          smoothed += curve.is_smoothed;
+          EXPECT_FALSE(crosses(curve)) << "seed " << seed;
+        }
+      for (const auto& curve : curves_of(mesh, labels)) crossed_without_walls += crosses(curve);
+    }
+  }
+  EXPECT_GT(smoothed, 100u);
+  EXPECT_GT(crossed_without_walls, 100u);
+}
+
+TEST(SmoothBoundaries, ABoundaryAlongWallsStays) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    Walled walled(bumpy_torus(), seed);
+    const auto jagged = jagged_curves_of(walled.mesh, walled.sides), curves = walled.curves(walled.sides);
+    ASSERT_EQ(curves.size(), jagged.size());
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      EXPECT_FALSE(curves[c].is_smoothed);
+      EXPECT_EQ(points_of(curves[c]), points_of(jagged[c]));
+    }
+    const Labels finer = products(walled.sides, random_cells(walled.shape, 6, seed + 100));
+    std::set<Surface_mesh::Edge_index> met;
+    for (const auto& curve : walled.curves(finer))
+      for (std::size_t i = curve.is_closed ? 0 : 1; i < curve.points.size(); ++i) {
+        const auto &p = curve.points[(i + curve.points.size() - 1) % curve.points.size()], &q = curve.points[i];
+        if (p.position < 1 || q.position < 1) continue;
+        met.insert(
+            walled.mesh.edge(walled.mesh.halfedge(walled.mesh.target(p.halfedge), walled.mesh.target(q.halfedge))));
+      }
+    for (const auto& [edge, is_wall] : walled.walls) EXPECT_TRUE(!is_wall || met.count(edge)) << edge;
+  }
+}
+
+TEST(SmoothBoundaries, WallsFarFromBoundariesChangeNothing) {
+  const Shape shape = meshes::sphere(3);
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  const auto above = [&](double height) {
+    return labels_by_place(shape, [&](const Eigen::Vector3d& p) { return std::size_t(p.z() > height); });
+  };
+  Edge_marks walls = edges_between(mesh, above(-0.6));
+  Face_labels<Surface_mesh> ids(mesh, above(0.3));
+  const auto np = CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walls));
+  Boundary_smoothing own_normals;
+  own_normals.normals.radius = 0;
+  const auto curves = smooth_boundaries(mesh, ids.map(), own_normals, np);
+  const auto expected = smooth_boundaries(mesh, ids.map(), own_normals);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(points_of(curves[0]), points_of(expected[0]));
+}
+
+TEST(SmoothBoundaries, ADualMeshHasItsWallsAndPoints) {
+  Walled walled(bumpy_torus(), 3);
+  const Labels labels = products(walled.sides, random_cells(walled.shape, 6));
+  Face_labels<Surface_mesh> ids(walled.mesh, labels);
+  const Dual_mesh_of dual(walled.mesh,
+                          CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walled.walls)));
+  const auto curves = smooth_boundaries(dual, ids.map()), expected = walled.curves(labels);
+  ASSERT_EQ(curves.size(), expected.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    ASSERT_EQ(curves[c].points.size(), expected[c].points.size());
+    for (std::size_t i = 0; i < curves[c].points.size(); ++i) {
+      EXPECT_EQ(curves[c].points[i].halfedge, expected[c].points[i].halfedge);
+      EXPECT_EQ(curves[c].points[i].position, expected[c].points[i].position);
+      EXPECT_LT((vector(curves[c].points[i].point) - vector(expected[c].points[i].point)).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(SmoothBoundaries, PointsAreThoseOfTheGivenMap) {
+  using Wide_point = CGAL::Simple_cartesian<long double>::Point_3;
+  const Shape shape = bumpy_torus();
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+  const auto doubled = boost::make_function_property_map<Surface_mesh::Vertex_index>(
+      [&](auto v) { return Wide_point(2 * mesh.point(v).x(), 2 * mesh.point(v).y(), 2 * mesh.point(v).z()); });
+  const auto np = CGAL::parameters::vertex_point_map(doubled);
+  const auto curves = smooth_boundaries(mesh, ids.map(), {}, np);
+  static_assert(std::is_same_v<decltype(curves[0].points[0].point), Wide_point>);
+  const auto expected = curves_of(mesh, random_cells(shape, 5));
+  ASSERT_EQ(curves.size(), expected.size());
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t i = 0; i < curves[c].points.size(); ++i) {
+      const auto& p = curves[c].points[i].point;
+      EXPECT_LT(
+          (Eigen::Vector3d(double(p[0]), double(p[1]), double(p[2])) - 2 * vector(expected[c].points[i].point)).norm(),
+          1e-9);
+    }
+}
+
+// ---- How points are joined ----
+
+namespace {
+
+using internal::Curve_joint;
+using internal::Curve_node;
+
+double length(const Curve_joint& joint, const std::vector<Curve_node>& nodes) {
+  double sum = 0;
+  Eigen::Vector3d last = point_of(joint.surface, joint.from);
+  for (const Curve_node& node : nodes) {
+    sum += (point_of(joint.surface, node) - last).norm();
+    last = point_of(joint.surface, node);
+  }
+  return sum + (point_of(joint.surface, joint.to) - last).norm();
+}
+
+Joining_report sum_of_reports(const std::vector<Boundary_curve<Surface_mesh>>& curves) {
+  Joining_report sum;
+  for (const auto& curve : curves) {
+    sum.joints += curve.joining.joints;
+    sum.failures += curve.joining.failures;
+    EXPECT_TRUE(curve.is_smoothed || curve.joining.joints == 0);
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST(SmoothBoundaries, GeodesicsAreNoLongerThanTracedLines) {
+  std::size_t joints = 0, shorter = 0;
+  const auto compare = [&](const Curve_joint& joint) {
+    const auto nodes = Geodesic_joining()(joint);
+    if (nodes) {
+      const double traced = length(joint, joint.traced), geodesic = length(joint, *nodes);
+      EXPECT_LE(geodesic, traced + 2e-3 * mean_edge_length(meshes::surface_mesh(bumpy_torus()))) << "off the vertices";
+      ++joints;
+      shorter += geodesic < traced * (1 - 1e-6);
+    }
+    return nodes;
+  };
+  for (const double noise : {0.02, 0.1, 0.3}) {
+    const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), noise);
+    const Surface_mesh mesh = meshes::surface_mesh(shape);
+    Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 12));
+    const auto report = sum_of_reports(smooth_boundaries(mesh, ids.map(), {}, compare));
+    EXPECT_LE(report.failures, report.joints / 50);
+    EXPECT_GT(report.joints, 50u);
+  }
+  EXPECT_GT(shorter, joints / 10);
+}
+
+TEST(SmoothBoundaries, GeodesicsAreStraightWhereTheSurfaceIsLaidOutFlat) {
+  for (const double angle : {0., 0.6, -0.6}) {
+    const Shape shape = meshes::folded_strip(angle, 10);
+    const Surface_mesh mesh = meshes::surface_mesh(shape);
+    const Dual_mesh_of dual(mesh);
+    std::size_t joints = 0;
+    const auto flat = [&](const Eigen::Vector3d& p) {
+      const Eigen::Vector3d q = dual.origin() + dual.unit() * p;
+      return Eigen::Vector2d(std::copysign(std::hypot(q.x(), q.z()), q.x()), q.y());
+    };
+    const auto compare = [&](const Curve_joint& joint) {
+      auto nodes = Geodesic_joining()(joint);
+      EXPECT_TRUE(nodes);
+      const double expected =
+          (flat(point_of(joint.surface, joint.to)) - flat(point_of(joint.surface, joint.from))).norm() / dual.unit();
+      EXPECT_NEAR(length(joint, *nodes), expected, 1e-3 * dual.mean_edge_length()) << "off the vertices";
+      ++joints;
+      return nodes;
+    };
+    Boundary_smoothing smoothing;
+    smoothing.crease_angle = meshes::pi;
+    Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+    smooth_boundaries(mesh, ids.map(), smoothing, compare);
+    EXPECT_GT(joints, 20u);
+  }
+}
+
+TEST(SmoothBoundaries, AJoiningThatFailsIsCountedAndTraced) {
+  const Shape shape = bumpy_torus();
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 9));
+  const auto traced = smooth_boundaries(mesh, ids.map());
+  const auto failed = smooth_boundaries(mesh, ids.map(), {},
+                                        [](const Curve_joint&) { return std::optional<std::vector<Curve_node>>(); });
+  ASSERT_EQ(traced.size(), failed.size());
+  for (std::size_t c = 0; c < traced.size(); ++c) EXPECT_EQ(points_of(traced[c]), points_of(failed[c]));
+  EXPECT_EQ(sum_of_reports(traced).failures, 0u);
+  EXPECT_EQ(sum_of_reports(failed).failures, sum_of_reports(failed).joints);
+  EXPECT_GT(sum_of_reports(traced).joints, 100u);
+  EXPECT_EQ(sum_of_reports(traced).joints, sum_of_reports(failed).joints);
+}
+
+TEST(SmoothBoundaries, NamedParametersMayFollowAnyArgument) {
+  const Shape shape = bumpy_torus();
+  const Surface_mesh mesh = meshes::surface_mesh(shape);
+  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+  const auto points = CGAL::parameters::vertex_point_map(mesh.points());
+  const auto expected = smooth_boundaries(mesh, ids.map());
+  for (const auto& curves :
+       {smooth_boundaries(mesh, ids.map(), points), smooth_boundaries(mesh, ids.map(), Boundary_smoothing(), points),
+        smooth_boundaries(mesh, ids.map(), Boundary_smoothing(), Traced_joining(), points)}) {
+    ASSERT_EQ(curves.size(), expected.size());
+    for (std::size_t c = 0; c < curves.size(); ++c) EXPECT_EQ(points_of(curves[c]), points_of(expected[c]));
+  }
 }
 
 // ---- What cannot be smoothed ----

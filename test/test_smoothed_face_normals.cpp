@@ -4,8 +4,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/internal/Face_diffusion.h>
-#include <RW_segmentation/internal/Face_geometry.h>
+#include <RW_segmentation/internal/mesh/Face_diffusion.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@
 
 namespace {
 
-using RW_segmentation::Mesh_dual_graph;
+using RW_segmentation::Dual_mesh_of;
 using RW_segmentation::Normal_smoothing;
 using RW_segmentation::smoothed_face_normals;
 using Normals = std::vector<Eigen::Vector3d>;
@@ -150,14 +149,14 @@ TEST(Smoothed_face_normals, AreTheDenseSolution) {
 TEST(Smoothed_face_normals, ComeFromASolverThatConvergesToTheDenseSolution) {
   for (const meshes::Shape& shape : various_shapes()) {
     const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
-    const Mesh_dual_graph graph(mesh);
-    const auto geometry = RW_segmentation::internal::face_geometry(mesh, graph, CGAL::parameters::default_values());
+    const Dual_mesh_of dual(mesh);
     for (const double radius : {0.01, 0.1}) {
       const Normals expected = dense_solution(Triangles(shape), radius);
       for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
-        Normals result = geometry.normal;
-        RW_segmentation::internal::Face_diffusion(graph, geometry, radius * radius * geometry.total_area)
-            .solve(geometry.normal, result, tolerance, {});
+        Normals numbered = dual.normals(), result(numbered.size());
+        RW_segmentation::internal::Face_diffusion(dual, radius * radius * dual.total_area())
+            .solve(dual.normals(), numbered, tolerance, {});
+        for (std::uint32_t f = 0; f < result.size(); ++f) result[dual.place(f)] = numbered[f];
         EXPECT_LT(mean_angle(result, expected), 5 * tolerance) << shape.faces.size() << " faces, radius " << radius;
       }
     }
@@ -177,10 +176,9 @@ TEST(Smoothed_face_normals, ComeFromLevelsThatHalveEvenRoundAFaceWithManyNeighbo
   cone.points.emplace_back(0, 0, 1);
   for (const meshes::Shape& shape : {cone, meshes::sphere(4)}) {
     const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
-    const Mesh_dual_graph graph(mesh);
-    const auto geometry = RW_segmentation::internal::face_geometry(mesh, graph, CGAL::parameters::default_values());
-    const RW_segmentation::internal::Face_diffusion diffusion(graph, geometry, 100 * geometry.total_area);
-    EXPECT_LE(static_cast<double>(diffusion.number_of_levels()), 1 + std::log2(graph.number_of_faces()));
+    const Dual_mesh_of dual(mesh);
+    const RW_segmentation::internal::Face_diffusion diffusion(dual, 100 * dual.total_area());
+    EXPECT_LE(static_cast<double>(diffusion.number_of_levels()), 1 + std::log2(dual.number_of_faces()));
     EXPECT_GE(diffusion.number_of_levels(), 3u);
   }
 }
@@ -235,16 +233,19 @@ TEST(Smoothed_face_normals, TellTheShapeUnderHeavyNoiseByItsVertices) {
 TEST(Smoothed_face_normals, KeepTheBorderInPlaceUnderHeavyNoise) {
   const meshes::Shape rough = meshes::with_noise(meshes::plane(20), 0.02);
   const meshes::Surface_mesh mesh = meshes::surface_mesh(rough);
-  RW_segmentation::internal::Unit_box_points points(mesh, CGAL::parameters::default_values());
-  const auto before = points;
-  points.smooth(mesh, 3);
+  const Dual_mesh_of dual(mesh);
+  const Normals smoothed_points = RW_segmentation::internal::smoothed_points(dual, 3);
   std::size_t moved = 0;
-  for (const auto v : mesh.vertices()) {
-    if (CGAL::is_border(v, mesh))
-      EXPECT_EQ(points(v), before(v));
-    else
-      moved += points(v) != before(v);
+  for (std::uint32_t f = 0; f < dual.number_of_faces(); ++f) {
+    auto h = mesh.halfedge(dual.face(f));
+    for (const auto v : dual.corners(f)) {
+      if (mesh.is_border(mesh.target(h))) {
+        EXPECT_EQ(smoothed_points[v], dual.point(v));
+      }
+      h = mesh.next(h);
+    }
   }
+  for (std::uint32_t v = 0; v < dual.number_of_vertices(); ++v) moved += smoothed_points[v] != dual.point(v);
   EXPECT_EQ(moved, 19u * 19u);
 }
 

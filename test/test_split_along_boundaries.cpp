@@ -1,3 +1,4 @@
+#include <RW_segmentation/Geodesic_joining.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
 
@@ -30,13 +31,16 @@ using Curves = std::vector<Boundary_curve<Surface_mesh>>;
 Shape bumpy_torus() { return meshes::with_noise(meshes::torus(2, 1, 40, 24), 0.02); }
 
 /// Smooths and splits, and sees to it that the surface and the segments are what they were.
-template <class Mesh>
-Split_report refine(Mesh& mesh, Face_labels<Mesh>& labels) {
+/// \param np of `smooth_boundaries()`
+template <class Mesh, class Joining = Traced_joining,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+Split_report refine(Mesh& mesh, Face_labels<Mesh>& labels, const Joining& joining = {},
+                    const NamedParameters& np = CGAL::parameters::default_values()) {
   const Surface_measures before = measures(mesh, labels);
   const double edge = mean_edge_length(mesh);
   std::map<typename boost::graph_traits<Mesh>::edge_descriptor, bool> marks;
   const auto constrained = boost::make_assoc_property_map(marks);
-  const auto curves = smooth_boundaries(mesh, labels.map());
+  const auto curves = smooth_boundaries(mesh, labels.map(), {}, joining, np);
   const Split_report report =
       split_along_boundaries(mesh, curves, labels.map(), CGAL::parameters::edge_is_constrained_map(constrained));
 
@@ -164,6 +168,36 @@ TEST(SplitAlongBoundariesOf, CrumpledMeshesKeepSurfaceAndSegments) {
   }
 }
 
+TEST(SplitAlongBoundariesOf, CurvesOfGeodesicsKeepSurfaceAndSegments) {
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    for (const double noise : {0.02, 0.3}) {
+      const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), noise, seed);
+      Surface_mesh mesh = meshes::surface_mesh(shape);
+      Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+      EXPECT_GT(refine(mesh, labels, Geodesic_joining()).faces_added, 100u);
+    }
+}
+
+TEST(SplitAlongBoundariesOf, GeodesicsPassFacesWithoutArea) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    Shape shape = bumpy_torus();
+    std::mt19937 random(seed);
+    for (int i = 0; i < 30; ++i) {  // a corner moves onto another one, or onto the line through two
+      const auto& face = shape.faces[random() % shape.faces.size()];
+      shape.points[face[0]] = random() % 2 == 0 ? shape.points[face[1]]
+                                                : Eigen::Vector3d((shape.points[face[1]] + shape.points[face[2]]) / 2);
+    }
+    Surface_mesh mesh = meshes::surface_mesh(shape);
+    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+    const Surface_measures before = measures(mesh, labels);
+    const auto curves = smooth_boundaries(mesh, labels.map(), {}, Geodesic_joining());
+    split_along_boundaries(mesh, curves, labels.map());
+    const Surface_measures after = measures(mesh, labels);
+    EXPECT_NEAR(after.area, before.area, 1e-12 * before.area);
+    EXPECT_EQ(after.regions, before.regions);
+  }
+}
+
 TEST(SplitAlongBoundariesOf, NewVerticesLieOnOldEdges) {
   const Shape shape = bumpy_torus();
   const Surface_mesh before = meshes::surface_mesh(shape);
@@ -194,6 +228,56 @@ TEST(SplitAlongBoundariesOf, MeshesOfCgalKeepSurfaceAndSegments) {
     }
     Face_labels<Surface_mesh> labels(*mesh, by_place);
     EXPECT_GT(refine(*mesh, labels).faces_added, 100u);
+  }
+}
+
+TEST(SplitAlongBoundariesOf, NoSegmentGetsToTheOtherSideOfAWall) {
+  std::size_t added = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const Shape shape = seed % 2 == 0 ? bumpy_torus() : meshes::with_noise(meshes::sphere(3), 0.01);
+    Surface_mesh mesh = meshes::surface_mesh(shape);
+    const Labels sides = random_cells(shape, 3, seed), cells = random_cells(shape, 8, seed + 100);
+    const Labels segments = products(sides, cells);
+    std::map<std::size_t, std::size_t> side_of;  // a segment
+    for (std::size_t f = 0; f < sides.size(); ++f) side_of[segments[f]] = sides[f];
+    Edge_marks walls = edges_between(mesh, sides);
+    Face_labels<Surface_mesh> labels(mesh, segments);
+    const auto areas = [&] {
+      std::map<std::size_t, double> area;  // of a side
+      for (const auto f : mesh.faces()) {
+        const auto h = mesh.halfedge(f);
+        const Eigen::Vector3d a = point(mesh, mesh.source(h));
+        area[side_of.at(labels[f])] +=
+            (point(mesh, mesh.target(h)) - a).cross(point(mesh, mesh.target(mesh.next(h))) - a).norm() / 2;
+      }
+      return area;
+    };
+    const auto before = areas();
+    const auto is_wall = boost::make_assoc_property_map(walls);
+    added += refine(mesh, labels, Traced_joining(), CGAL::parameters::edge_is_constrained_map(is_wall)).faces_added;
+    for (const auto& [side, area] : areas()) EXPECT_NEAR(area, before.at(side), 1e-12);
+    for (const auto e : mesh.edges()) {
+      const auto f = mesh.face(mesh.halfedge(e, 0)), g = mesh.face(mesh.halfedge(e, 1));
+      EXPECT_EQ(walls[e], side_of.at(labels[f]) != side_of.at(labels[g])) << "walls are whole";
+    }
+  }
+  EXPECT_GT(added, 1000u);
+}
+
+TEST(SplitAlongBoundariesOf, WallsThatEndInSegmentsStayWhole) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Shape shape = seed % 2 == 0 ? bumpy_torus() : meshes::with_noise(meshes::plane(20), 0.004);
+    Surface_mesh mesh = meshes::surface_mesh(shape);
+    std::mt19937 random(seed);
+    Edge_marks walls;
+    for (const auto e : mesh.edges()) walls[e] = random() % 12 == 0;
+    const auto is_wall = boost::make_assoc_property_map(walls);
+    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 6, seed));
+    const auto curves = smooth_boundaries(mesh, labels.map(), {}, CGAL::parameters::edge_is_constrained_map(is_wall));
+    for (const auto& curve : curves)
+      for (const auto& p : curve.points) EXPECT_TRUE(p.position == 1 || !walls.at(mesh.edge(p.halfedge)));
+    EXPECT_GT(refine(mesh, labels, Geodesic_joining(), CGAL::parameters::edge_is_constrained_map(is_wall)).faces_added,
+              0u);
   }
 }
 

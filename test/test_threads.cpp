@@ -3,9 +3,9 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/integral_invariant_curvatures.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -133,7 +133,11 @@ TEST(Threads, OfTbbDoNotChangeAReducedSegmentation) {
 
 TEST(Threads, OfTbbDoNotChangeTheSurfacesOfAMachinePart) {
   const Surface_mesh mesh = meshes::surface_mesh(meshes::l_shape(12));
-  expect_the_same_with_threads_of_tbb<Labels>([&] { return segments(mesh, Engineering_segmentation()); });
+  expect_the_same_with_threads_of_tbb<Labels>([&] {
+    Face_labels<Surface_mesh> labels(mesh);
+    segmentation_into_surfaces(mesh, labels.map());
+    return labels.values();
+  });
 }
 
 TEST(Threads, OfTbbDoNotChangeCurvatures) {

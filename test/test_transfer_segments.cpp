@@ -2,6 +2,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 
 #include <boost/property_map/function_property_map.hpp>
 
@@ -39,7 +40,7 @@ Face_labels<Mesh> labelled(const Mesh& mesh, const std::function<std::size_t(con
 
 /// All edges alike, so that walks are drawn to no feature.
 auto even_conductance() {
-  return boost::make_function_property_map<Mesh::Edge_index>([](Mesh::Edge_index) { return 1.; });
+  return as_conductance(boost::make_function_property_map<Mesh::Edge_index>([](Mesh::Edge_index) { return 1.; }));
 }
 
 template <class Conductances>
@@ -62,9 +63,9 @@ TYPED_TEST(Transfer, GivesASubdividedMeshTheIdsOfTheFacesItWasMadeOf) {
   Face_labels<typename TypeParam::Mesh> ids(reduced.mesh), result(full.mesh);
   std::size_t number = 0;
   for (const auto f : faces(reduced.mesh)) put(ids.map(), f, number++);
-  const auto conductance =
+  const auto conductance = as_conductance(
       boost::make_function_property_map<typename boost::graph_traits<typename TypeParam::Mesh>::edge_descriptor>(
-          [](const auto&) { return 1.; });
+          [](const auto&) { return 1.; }));
   EXPECT_EQ(transfer_segments(reduced.mesh, ids.map(), full.mesh, conductance, result.map(), 0), coarse.faces.size());
   for (const std::size_t id : ids.values())
     EXPECT_EQ(std::count(result.values().begin(), result.values().end(), id), 4) << id;
@@ -126,19 +127,21 @@ TEST(TransferSegments, SegmentsOfACoarserMeshStayInOnePiece) {
   Face_labels<Mesh> result(mesh);
   transfer_segments(reduced, labelled(reduced, [](const Eigen::Vector3d& p) -> std::size_t { return p[2] > 0; }).map(),
                     mesh, even_conductance(), result.map(), 3);
-  std::vector<double> joins;
-  const Mesh_dual_graph<Mesh> graph(mesh);
-  for (Dual_graph::Index e = 0; e < graph.number_of_edges(); ++e)
-    joins.push_back(get(result.map(), graph.face(graph.faces_of(e)[0])) ==
-                    get(result.map(), graph.face(graph.faces_of(e)[1])));
-  EXPECT_EQ(internal::components(graph, joins).count, 2u);
+  const Dual_mesh_of dual(mesh);
+  const internal::Components pieces(dual.graph(), [&](Dual_mesh::Index e) {
+    const auto [f, g] = dual.graph().faces_of(e);
+    return get(result.map(), dual.face(f)) == get(result.map(), dual.face(g));
+  });
+  EXPECT_EQ(pieces.count, 2u);
 }
 
 TEST(TransferSegments, OfEachLabelAsManyRegionsAreTrustedAsTheReducedMeshHas) {
   const Dual_graph row(7, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}});
   const std::vector<std::size_t> labels = {0, 0, 1, 0, 1, 1, 0};
   const auto spurious = [&](std::size_t regions_of_0, std::size_t regions_of_1) {
-    return internal::faces_of_spurious_regions(row, {1, 1, 9, 3, 1, 1, 4}, labels,
+    const internal::Components regions(
+        row, [&](Dual_graph::Index e) { return labels[row.faces_of(e)[0]] == labels[row.faces_of(e)[1]]; });
+    return internal::faces_of_spurious_regions(regions, {1, 1, 9, 3, 1, 1, 4}, labels,
                                                {{0, regions_of_0}, {1, regions_of_1}});
   };
   EXPECT_EQ(spurious(3, 2), (std::vector<char>{0, 0, 0, 0, 0, 0, 0}));
@@ -184,9 +187,7 @@ TEST(TransferSegments, DoesNotDependOnPlaceAndScaleOfBothMeshes) {
 
 TEST(TransferSegments, ClosestFacesAreThoseOfASearchThroughAll) {
   const Mesh mesh = meshes::surface_mesh(meshes::torus(1, 0.4, 30, 20));
-  const Mesh_dual_graph<Mesh> graph(mesh);
-  const internal::Unit_box_points point(mesh, CGAL::parameters::default_values());
-  const auto triangles = internal::fan_triangles(mesh, graph, point);
+  const auto triangles = internal::fan_triangles(Dual_mesh_of(mesh));
   const internal::Triangle_tree tree(triangles);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-0.6, 0.6);
@@ -208,6 +209,33 @@ TEST(TransferSegments, ClosestFacesAreThoseOfASearchThroughAll) {
     EXPECT_DOUBLE_EQ(distance_to(triangles[*found]), least);
     EXPECT_GT(triangles[*found].first_side.cross(triangles[*found].second_side).dot(direction), 0);
   }
+}
+
+TEST(TransferSegments, TakesMeshesThatHaveBeenRead) {
+  const Mesh mesh = meshes::surface_mesh(meshes::sphere(4)), reduced = meshes::surface_mesh(meshes::sphere(2));
+  const auto halves = labelled(reduced, [](const Eigen::Vector3d& p) -> std::size_t { return p[2] > 0; });
+  Face_labels<Mesh> result(mesh);
+  transfer_segments(Dual_mesh_of(reduced), Face_labels<Mesh>(halves).map(), Dual_mesh_of(mesh), even_conductance(),
+                    result.map(), 3);
+  EXPECT_EQ(result.values(), transferred(reduced, halves, mesh, even_conductance(), 3));
+}
+
+TEST(TransferSegments, ABoundaryDoesNotMoveOverConstrainedEdges) {
+  // The reduced mesh has its boundary along the constrained edges, the walk alone would move it to the fold.
+  const Mesh mesh = meshes::surface_mesh(meshes::folded_strip(-1, 40));
+  const auto beside = labelled(mesh, [](const Eigen::Vector3d& p) -> std::size_t { return p[0] > 0.07; });
+  const auto ids = Face_labels<Mesh>(beside).values();
+  std::vector<bool> is_wall(mesh.num_edges());
+  for (const auto e : mesh.edges())
+    is_wall[e] =
+        !mesh.is_border(e) && ids[mesh.face(mesh.halfedge(e))] != ids[mesh.face(mesh.opposite(mesh.halfedge(e)))];
+  const auto walls = boost::make_function_property_map<Mesh::Edge_index>(
+      [&](Mesh::Edge_index e) { return static_cast<bool>(is_wall[e]); });
+  const Conductance<Mesh> conductance(mesh, Dihedral_difference<Mesh>(mesh));
+  Face_labels<Mesh> result(mesh);
+  transfer_segments(mesh, Face_labels<Mesh>(beside).map(), mesh, conductance, result.map(), 16,
+                    CGAL::parameters::edge_is_constrained_map(walls));
+  EXPECT_EQ(result.values(), ids);
 }
 
 TEST(TransferSegments, WithoutAFaceToTakeIdsFromNothingIsWritten) {

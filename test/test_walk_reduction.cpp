@@ -1,3 +1,5 @@
+#include <RW_segmentation/Eigen_walk_solver.h>
+#include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
@@ -16,6 +18,7 @@
 #include <random>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -73,7 +76,7 @@ TEST(FaceClusters, EachIsConnectedAndCrossesNoForbiddenEdge) {
     const auto [f, g] = graph.faces_of(e);
     within[e] = is_crossed[e] && clusters.of_face[f] == clusters.of_face[g];
   }
-  EXPECT_EQ(internal::components(graph, within).count, clusters.root.size());
+  EXPECT_EQ(networks::components(graph, within).count, clusters.root.size());
   for (std::size_t c = 0; c < clusters.root.size(); ++c) EXPECT_EQ(clusters.of_face[clusters.root[c]], c);
 }
 
@@ -121,7 +124,7 @@ TEST(FaceClusters, AnEdgeThatDoesNotConductCutsTheirNetwork) {
   conductances[9] = 0;
   is_crossed[9] = false;
   const Face_clusters clusters(graph, conductances, is_crossed, 3, {});
-  EXPECT_EQ(internal::components(clusters.graph, clusters.conductances).count, 2u);
+  EXPECT_EQ(networks::components(clusters.graph, clusters.conductances).count, 2u);
 }
 
 TEST(SettleBand, OverTheWholeGraphItIsTheWalkFromTheSeeds) {
@@ -153,12 +156,13 @@ TEST(SettleBand, FragmentsAreUnionsOfClustersWithoutABandAndThoseOfTheFacesWithO
   const Dual_graph graph = networks::triangulated_torus(24);
   const std::vector<double> conductances = random_conductances(graph), lengths(graph.number_of_edges(), 1.);
   const std::vector<Index> seeds = {5, 300, 700, 1000};
-  const internal::Components component = internal::components(graph, conductances);
+  const internal::Components component = networks::components(graph, conductances);
   const internal::Walk_network network{graph, conductances, component};
   Walk_reduction reduction;
   reduction.band = 0;
+  const auto make_solver = [] { return Star_mesh_elimination(); };
   const auto fragments = [&] {
-    return internal::walk_fragments_over_clusters(network, lengths, seeds, reduction, {}).of_face;
+    return internal::walk_fragments_over_clusters(network, lengths, seeds, reduction, make_solver, {}).of_face;
   };
   const std::vector<std::size_t> unions = fragments();
   const Face_clusters clusters = internal::clusters_around(seeds, network, lengths, reduction);
@@ -214,6 +218,46 @@ TEST(WalkReduction, KeepsGivenSeedsComponentsAndConstrainedEdges) {
     if (!constrained[e] || mesh.is_border(e)) continue;
     EXPECT_NE(ids.values()[mesh.face(mesh.halfedge(e))], ids.values()[mesh.face(mesh.opposite(mesh.halfedge(e)))]);
   }
+}
+
+namespace {
+
+/// Two rows of faces that no edge joins.
+struct Two_rows {
+  Dual_graph graph = Dual_graph(8, {{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}, {6, 7}});
+  std::vector<double> conductances = std::vector<double>(6, 1.);
+  internal::Components component = networks::components(graph, conductances);
+  internal::Walk_network network = {graph, conductances, component};
+
+  template <class Solver>
+  std::vector<std::size_t> fragments(const std::vector<Index>& seeds) const {
+    Solver solver;
+    solver.analyze(graph);
+    return internal::walk_fragments(network, std::move(solver), seeds, {}).of_face;
+  }
+  std::vector<std::size_t> fragments_over_clusters(const std::vector<Index>& seeds) const {
+    return internal::walk_fragments_over_clusters(network, std::vector<double>(6, 1.), seeds, Walk_reduction(),
+                                                  [] { return Eigen_walk_solver<>(); }, {})
+        .of_face;
+  }
+};
+
+}  // namespace
+
+TEST(WalkFragments, AComponentWithoutASeedIsAFragmentOfItsOwn) {
+  const Two_rows rows;
+  const std::vector<std::size_t> whole = {0, 0, 0, 0, 1, 1, 1, 1}, halved = {0, 0, 1, 1, 2, 2, 2, 2};
+  for (const std::vector<Index>& seeds : {std::vector<Index>{}, {2}, {6}, {2, 5}}) {
+    EXPECT_EQ(rows.fragments<Star_mesh_elimination>(seeds), whole);
+    EXPECT_EQ(rows.fragments_over_clusters(seeds), whole);
+  }
+  EXPECT_EQ(rows.fragments<Star_mesh_elimination>({0, 3}), halved);
+  EXPECT_EQ(rows.fragments_over_clusters({0, 3}), halved);
+}
+
+TEST(WalkFragments, AreMadeByAnySolver) {
+  const Two_rows rows;
+  EXPECT_EQ(rows.fragments<Eigen_walk_solver<>>({0, 3, 5, 7}), rows.fragments<Star_mesh_elimination>({0, 3, 5, 7}));
 }
 
 TEST(WalkReduction, ClustersGrowWithLargeMeshesAlone) {

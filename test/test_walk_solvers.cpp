@@ -1,5 +1,6 @@
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
+#include <RW_segmentation/internal/walk/make_solver.h>
 #ifdef RW_SEGMENTATION_WITH_CHOLMOD
 #include <Eigen/CholmodSupport>
 #endif
@@ -16,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 using namespace networks;
@@ -288,6 +291,51 @@ TYPED_TEST(Walk_solver, RefusesConductancesOfAnotherGraph) {
   TypeParam solver;
   solver.analyze(path);
   EXPECT_THROW(solver.factorize({1.}, {0}), std::invalid_argument);
+}
+
+TYPED_TEST(Walk_solver, CopiedIsAFreshSolver) {
+  const Network network{triangulated_torus(7), std::vector<double>(3 * 49, 1.)};
+  const std::vector<Index> seeds = {0, 40};
+  TypeParam solver;
+  const Potentials expected = networks::potentials(solver, network, seeds);
+  TypeParam copy = solver, made = internal::make_solver(solver);
+  EXPECT_THROW(copy.factorize(network.conductances, seeds), std::invalid_argument);
+  EXPECT_EQ(networks::potentials(copy, network, seeds), expected);
+  EXPECT_EQ(networks::potentials(made, network, seeds), expected);
+  copy = solver;
+  EXPECT_THROW(copy.factorize(network.conductances, seeds), std::invalid_argument);
+  Potentials again;
+  solver.potentials(Potentials::Identity(2, 2), again);
+  EXPECT_EQ(again, expected);
+}
+
+TEST(EigenWalkSolver, CopiedPromisesTheSameAccuracy) {
+  std::mt19937 random(13);
+  Network network{triangulated_torus(12), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 3, random);
+  const auto is_refused = [&](auto solver) {
+    try {
+      networks::potentials(solver, network, {0, 100});
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+    return false;
+  };
+  const Eigen_walk_solver<> lenient, strict(0);
+  EXPECT_FALSE(is_refused(Eigen_walk_solver<>(lenient)));
+  EXPECT_TRUE(is_refused(Eigen_walk_solver<>(strict)));
+}
+
+TEST(MakeSolver, CallsAFunctionObjectForASolverThatHasSettings) {
+  using Conjugate_gradient = Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>;
+  const auto with_settings = [] {
+    Conjugate_gradient solver;
+    solver.eigen_solver().setMaxIterations(7);
+    return solver;
+  };
+  auto solver = internal::make_solver(with_settings);
+  static_assert(std::is_same_v<decltype(solver), Conjugate_gradient>);
+  EXPECT_EQ(solver.eigen_solver().maxIterations(), 7);
 }
 
 TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {

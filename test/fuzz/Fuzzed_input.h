@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_TEST_FUZZ_FUZZED_INPUT_H
 #define RW_SEGMENTATION_TEST_FUZZ_FUZZED_INPUT_H
 
@@ -22,6 +24,8 @@
 namespace fuzz {
 
 using Mesh = meshes::Surface_mesh;
+/// Which edges nothing crosses.
+using Walls = Mesh::Property_map<Mesh::Edge_index, bool>;
 
 /// Ends the program, so that the fuzzer keeps the input.
 inline void require(bool holds, const char* property) {
@@ -83,6 +87,15 @@ class Input {
 
   /// A face of a mesh that has some.
   Mesh::Face_index face_of(const Mesh& mesh) { return *std::next(mesh.faces().begin(), place(mesh.number_of_faces())); }
+
+  /// Walls, none or many.
+  Walls walls(Mesh& mesh) {
+    const Walls walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+    const std::size_t sixteenths = flip() ? below(16) : 0;
+    if (sixteenths > 0)
+      for (const auto e : mesh.edges()) walls[e] = below(16) < sixteenths;
+    return walls;
+  }
 
   /// Labels, each that of a neighbour if that has one, or any.
   std::vector<std::size_t> labels(const Mesh& mesh, std::size_t number) {
@@ -192,8 +205,9 @@ class Input {
   FuzzedDataProvider bytes_;
 };
 
-/// Whether each label's faces hang together, and the labels are 0, 1, ...
-inline bool are_connected_segments(const Mesh& mesh, const std::vector<std::size_t>& label, std::size_t segments) {
+/// Whether each label's faces hang together, not over walls alone, and the labels are 0, 1, ...
+inline bool are_connected_segments(const Mesh& mesh, const Walls& walls, const std::vector<std::size_t>& label,
+                                   std::size_t segments) {
   std::vector<bool> is_met(segments, false), is_done(mesh.num_faces(), false);
   std::vector<Mesh::Face_index> front;
   for (const auto first : mesh.faces()) {
@@ -204,11 +218,12 @@ inline bool are_connected_segments(const Mesh& mesh, const std::vector<std::size
     while (!front.empty()) {
       const auto f = front.back();
       front.pop_back();
-      for (const auto g : CGAL::faces_around_face(mesh.halfedge(f), mesh))
-        if (g != Mesh::null_face() && !is_done[g] && label[g] == label[f]) {
-          is_done[g] = true;
-          front.push_back(g);
-        }
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const auto g = mesh.face(mesh.opposite(h));
+        if (g == Mesh::null_face() || walls[mesh.edge(h)] || is_done[g] || label[g] != label[f]) continue;
+        is_done[g] = true;
+        front.push_back(g);
+      }
     }
   }
   return std::find(is_met.begin(), is_met.end(), false) == is_met.end();

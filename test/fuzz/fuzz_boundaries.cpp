@@ -1,5 +1,7 @@
-// Smooths and cuts the boundaries of any labels on battered meshes: the surface stays where it is, and so do the
-// segments.
+// SPDX-License-Identifier: MIT
+
+// Smooths and cuts the boundaries of any labels on battered meshes with any walls: the surface stays where it is, and so
+// do the segments.
 
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
@@ -41,8 +43,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (input.below(4) == 0) smoothing.largest_displacement = input.number(false);
   if (input.below(4) == 0) smoothing.crease_angle = input.number(false);
 
+  const auto np = CGAL::parameters::edge_is_constrained_map(input.walls(mesh));
   std::vector<Boundary_curve<Mesh>> curves;
-  if (!fuzz::accepts([&] { curves = smooth_boundaries(mesh, label, smoothing); })) return 0;
+  if (!fuzz::accepts([&] { curves = smooth_boundaries(mesh, label, smoothing, np); })) return 0;
   const auto before = boundaries::measures(mesh, label);
   if (!fuzz::accepts([&] { split_along_boundaries(mesh, curves, label); })) {
     fuzz::require(boundaries::measures(mesh, label).faces == before.faces, "a refusal leaves the mesh as it was");

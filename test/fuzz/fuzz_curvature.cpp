@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Curvatures of battered meshes with any radius: numbers, or a refusal.
 
 #include <RW_segmentation/Curvature_difference.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Bytes as a file of each format: read into a sound soup, or refused with one line that names the file.
 
 #include "../../examples/mesh_files.h"

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: MIT
+
 // Walks with any conductances on battered meshes: probabilities add up to one, and after any edits of the seeds the
 // answer is that of a walk that began with them.
 
+#include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Random_walk.h>
 
 #include "Fuzzed_input.h"
@@ -42,7 +45,7 @@ std::vector<double> probabilities(Random_walk<Mesh>& walk, const Mesh& mesh) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
   Mesh mesh = input.mesh(false);
-  const auto conductance = conductances(mesh, input);
+  const auto conductance = as_conductance(conductances(mesh, input));
   if (mesh.number_of_faces() == 0) return 0;
 
   auto label = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:label", labels).first;

@@ -1,14 +1,19 @@
-// All policies with any numbers on battered meshes: connected segments, as many as said, or a refusal that writes
-// nothing.
+// SPDX-License-Identifier: MIT
 
-#include <RW_segmentation/Engineering_segmentation.h>
+// All policies with any numbers on battered meshes with any walls: connected segments, as many as said, or a refusal that
+// writes nothing.
+
+#include <RW_segmentation/Curvature_difference.h>
+#include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/segment_surfaces.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include "Fuzzed_input.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -18,57 +23,81 @@ namespace {
 
 constexpr std::size_t untouched = 1000000;
 
-template <class Policy>
-void segment(const Mesh& mesh, const Policy& policy, fuzz::Input& input) {
+/// \param segment writes ids into a map and returns how many there are
+/// \param wanted the number of segments asked for
+template <class Segment>
+void check(const Mesh& mesh, const fuzz::Walls& walls, std::optional<std::size_t> wanted, fuzz::Input& input,
+           const Segment& segment) {
   std::vector<std::size_t> label(mesh.num_faces(), untouched);
   const auto map = boost::make_iterator_property_map(label.begin(), get(CGAL::face_index, mesh));
-  std::vector<Mesh::Face_index> seeds;
-  if (mesh.number_of_faces() > 0)
-    for (std::size_t n = input.below(4); n > 0; --n) seeds.push_back(input.face_of(mesh));
   std::size_t segments = 0;
-  if (!fuzz::accepts([&] { segments = segmentation_via_random_walks(mesh, map, policy, seeds); })) {
+  if (!fuzz::accepts([&] { segments = segment(map); })) {
     for (const std::size_t l : label) fuzz::require(l == untouched, "a refusal writes nothing");
     return;
   }
-  fuzz::require(fuzz::are_connected_segments(mesh, label, segments), "segments are connected and numbered from 0");
-  if (policy.number_of_segments && mesh.number_of_faces() > 0)
-    fuzz::require(segments == *policy.number_of_segments, "there are as many segments as asked for");
+  fuzz::require(fuzz::are_connected_segments(mesh, walls, label, segments),
+                "segments are connected, not over walls, and numbered from 0");
+  if (wanted && mesh.number_of_faces() > 0)
+    fuzz::require(segments == *wanted, "there are as many segments as asked for");
   if (input.below(4) == 0)
     fuzz::require(segment_surfaces(mesh, map, segments).size() == segments, "each segment has a surface");
 }
 
-template <class Policy>
-void set_common_numbers(Policy& policy, fuzz::Input& input) {
-  if (input.flip()) policy.number_of_segments = input.below(12);
-  if (input.below(4) == 0) policy.stop_cost = input.number(false);
-  if (input.below(4) == 0) policy.sigma = input.number(false);
-  if (input.below(4) == 0) policy.cap = input.number(false);
-  if (input.below(4) == 0) policy.convex_weight = input.number(false);
-  if (input.below(4) == 0) policy.smoothing.radius = input.number(false);
-  if (input.below(4) == 0) policy.smoothing.noise_angle = input.number(false);
+/// The segments of policies with other numbers.
+template <class Policies>
+void check_policies(const Mesh& mesh, const fuzz::Walls& walls, Policies policies, fuzz::Input& input) {
+  std::optional<std::size_t> wanted;
+  if (input.flip()) policies.stop = Segment_count_stop(*(wanted = input.below(12)));
+  if (!wanted && input.flip()) policies.stop = Cost_threshold_stop(input.number(false));
+  if (input.below(4) == 0) policies.sigma = input.number(false);
+  if (input.below(4) == 0) policies.cap = input.number(false);
+  if (input.below(4) == 0) policies.smoothing.radius = input.number(false);
+  if (input.below(4) == 0) policies.smoothing.noise_angle = input.number(false);
+  std::vector<Mesh::Face_index> seeds;
+  if (mesh.number_of_faces() > 0)
+    for (std::size_t n = input.below(4); n > 0; --n) seeds.push_back(input.face_of(mesh));
+  check(mesh, walls, wanted, input, [&](auto map) {
+    return segmentation_via_random_walks(mesh, map, policies, seeds, CGAL::parameters::edge_is_constrained_map(walls));
+  });
+}
+
+/// Differences of angles with any numbers.
+Dihedral_difference_policy angles(Dihedral_difference_policy difference, fuzz::Input& input) {
+  if (input.below(4) == 0) difference.convex_weight = input.number(false);
+  if (input.below(4) == 0) difference.ordinary_difference = input.number(false);
+  return difference;
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const std::size_t kind = input.below(3);
-  const Mesh mesh = input.mesh(kind == 2);
+  const std::size_t kind = input.below(5);
+  Mesh mesh = input.mesh(kind == 4);
+  const fuzz::Walls walls = input.walls(mesh);
   if (kind == 0) {
-    Automatic_segmentation policy;
-    set_common_numbers(policy, input);
-    if (input.below(4) == 0) policy.seeds = input.below(300);
-    if (input.below(4) == 0) policy.ordinary_difference = input.number(false);
-    segment(mesh, policy, input);
+    Automatic_segmentation policies;
+    if (input.below(4) == 0) policies.seeding.count = input.below(300);
+    policies.difference = angles(policies.difference, input);
+    check_policies(mesh, walls, policies, input);
   } else if (kind == 1) {
-    Paper_segmentation policy;
-    set_common_numbers(policy, input);
-    segment(mesh, policy, input);
+    Paper_segmentation policies;
+    policies.difference = angles(policies.difference, input);
+    check_policies(mesh, walls, policies, input);
+  } else if (kind == 2) {
+    Coarse_paper_segmentation policies;
+    policies.difference = angles(policies.difference, input);
+    check_policies(mesh, walls, policies, input);
+  } else if (kind == 3) {
+    check_policies(mesh, walls, Automatic_segmentation().with_difference(Curvature_difference_policy()), input);
   } else {
-    Engineering_segmentation policy;
-    set_common_numbers(policy, input);
-    if (input.below(4) == 0) policy.noise = input.number(false);
-    segment(mesh, policy, input);
+    Surface_segmentation numbers;
+    if (input.flip()) numbers.number_of_segments = input.below(12);
+    if (input.below(4) == 0) numbers.stop_cost = input.number(false);
+    if (input.below(4) == 0) numbers.noise = input.number(false);
+    check(mesh, walls, numbers.number_of_segments, input, [&](auto map) {
+      return segmentation_into_surfaces(mesh, map, numbers, CGAL::parameters::edge_is_constrained_map(walls));
+    });
   }
   return 0;
 }

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Writes what fuzzing begins with: a folder for each target. For fuzz_mesh_files these are small sound files of all
 // formats, for the others bytes of many lengths.
 //

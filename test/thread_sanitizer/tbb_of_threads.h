@@ -135,6 +135,16 @@ void isolate(const Work& work) {
 }
 
 }  // namespace this_task_arena
+
+class task_arena {
+ public:
+  explicit task_arena(int /* threads */) {}
+  template <class Work>
+  auto execute(const Work& work) {
+    return work();
+  }
+};
+
 }  // namespace tbb
 
 #endif

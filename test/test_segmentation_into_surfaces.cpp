@@ -1,12 +1,14 @@
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/segment_surfaces.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 
+#include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
 #include "../benchmark/segmentation_measures.h"
 #include "meshes.h"
 #include "solids.h"
+#include "walls.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +32,9 @@ meshes::Shape shape_of(const solids::Solid& solid) { return {solid.points, solid
 
 /// Segments in the order of the faces of a mesh.
 template <class Mesh>
-Labels segments_of(const Mesh& mesh, const Engineering_segmentation& policy = Engineering_segmentation()) {
+Labels segments_of(const Mesh& mesh, const Surface_segmentation& numbers = {}) {
   std::map<typename boost::graph_traits<Mesh>::face_descriptor, std::size_t> ids;
-  segmentation_via_random_walks(mesh, boost::make_assoc_property_map(ids), policy);
+  segmentation_into_surfaces(mesh, boost::make_assoc_property_map(ids), numbers);
   Labels labels;
   for (const auto f : faces(mesh)) labels.push_back(ids.at(f));
   return labels;
@@ -118,21 +120,21 @@ void expect_every_face_found(const solids::Solid& solid) {
 
 // ---- What is found ----
 
-TEST(EngineeringSegmentation, FindsTheFacesOfEvenlyMeshedSolids) {
+TEST(SegmentationIntoSurfaces, FindsTheFacesOfEvenlyMeshedSolids) {
   for (const solids::Solid& solid : solids::all(solids::even(0.1))) expect_every_face_found(solid);
 }
 
-TEST(EngineeringSegmentation, FindsTheFacesOfSolidsAsAKernelMeshesThem) {
+TEST(SegmentationIntoSurfaces, FindsTheFacesOfSolidsAsAKernelMeshesThem) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) expect_every_face_found(solid);
 }
 
-TEST(EngineeringSegmentation, FindsTheFacesAmongTrianglesWithoutArea) {
+TEST(SegmentationIntoSurfaces, FindsTheFacesAmongTrianglesWithoutArea) {
   const solids::Meshing meshing = solids::even(0.15);
   for (const solids::Solid& solid : {solids::box(meshing), solids::flange(meshing), solids::cone_on_cylinder(meshing)})
     expect_every_face_found(with_zero_area_faces(solid));
 }
 
-TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFreeForms) {
+TEST(SegmentationIntoSurfaces, FindsPlanesOneSquareWideBetweenFreeForms) {
   // No round neighbourhood of twelve vertices lies on one surface.
   solids::Builder builder("square tube with fillets of varying radius");
   constexpr double half = 0.45, length = 6;
@@ -140,13 +142,13 @@ TEST(EngineeringSegmentation, FindsPlanesOneSquareWideBetweenFreeForms) {
   const auto radius = [](double v) { return 0.3 + 0.04 * std::sin(9 * v) + 0.03 * std::sin(23 * v); };
   const solids::Point up = length * solids::Point::UnitZ();
   for (int side = 0; side < 4; ++side) {
-    const double angle = side * solids::pi / 2;
+    const double angle = side * solids::half_turn / 2;
     const solids::Point out(std::cos(angle), std::sin(angle), 0), left(-out.y(), out.x(), 0);
     builder.grid(builder.add(solids::plane(half * out, out)), 1, along, [=](double u, double v) -> solids::Point {
       return half * out + (2 * u - 1) * (half - radius(v)) * left + v * up;
     });
     builder.grid(builder.add({}), around_fillet, along, [=](double u, double v) -> solids::Point {
-      const double r = radius(v), turn = u * solids::pi / 2;
+      const double r = radius(v), turn = u * solids::half_turn / 2;
       return (half - r) * (out + left) + r * (std::cos(turn) * out + std::sin(turn) * left) + v * up;
     });
   }
@@ -169,7 +171,7 @@ static solids::Solid roof_that_becomes_flat(const std::vector<double>& creases) 
   return std::move(builder).solid();
 }
 
-TEST(EngineeringSegmentation, CutsAFreeFormAlongCreasesThatEndInIt) {
+TEST(SegmentationIntoSurfaces, CutsAFreeFormAlongCreasesThatEndInIt) {
   for (const std::vector<double>& creases : {std::vector<double>{0}, {-0.4, 0.4}}) {
     const solids::Solid roof = roof_that_becomes_flat(creases);
     const Labels segments = segments_of(roof);
@@ -191,7 +193,7 @@ TEST(EngineeringSegmentation, CutsAFreeFormAlongCreasesThatEndInIt) {
   }
 }
 
-TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
+TEST(SegmentationIntoSurfaces, FindsMostFacesUnderNoise) {
   for (const solids::Meshing& meshing : {solids::even(0.1), solids::by_kernel()}) {
     double error = 0, found = 0, faces = 0, solids = 0;
     for (const solids::Solid& clean : solids::all(meshing)) {
@@ -210,7 +212,7 @@ TEST(EngineeringSegmentation, FindsMostFacesUnderNoise) {
   }
 }
 
-TEST(EngineeringSegmentation, FindsLongTrianglesOfPipesUnderNoise) {
+TEST(SegmentationIntoSurfaces, FindsLongTrianglesOfPipesUnderNoise) {
   // Half of such a triangle lies near the torus that its pipe continues into.
   for (const unsigned seed : {1u, 2u, 3u}) {
     const solids::Solid elbow = solids::with_noise(solids::pipe_elbow(solids::by_kernel()), 0.3, seed);
@@ -218,7 +220,7 @@ TEST(EngineeringSegmentation, FindsLongTrianglesOfPipesUnderNoise) {
   }
 }
 
-TEST(EngineeringSegmentation, DrawsNoJaggedBoundariesUnderNoise) {
+TEST(SegmentationIntoSurfaces, DrawsNoJaggedBoundariesUnderNoise) {
   const solids::Meshing meshing = solids::even(0.1);
   for (const solids::Solid& clean : {solids::capsule(meshing), solids::pipe_elbow(meshing)}) {
     const solids::Solid solid = solids::with_noise(clean, 0.3);
@@ -226,35 +228,35 @@ TEST(EngineeringSegmentation, DrawsNoJaggedBoundariesUnderNoise) {
   }
 }
 
-TEST(EngineeringSegmentation, TakesTheWholeSolidForOneSurfaceUnderNoiseThatHidesIt) {
+TEST(SegmentationIntoSurfaces, TakesTheWholeSolidForOneSurfaceUnderNoiseThatHidesIt) {
   for (const solids::Meshing& meshing : {solids::even(0.2), solids::by_kernel()})
     for (const double noise : {10., 1e97}) {
-      Engineering_segmentation policy;
-      policy.noise = noise;
-      EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape_of(solids::stepped_shaft(meshing))), policy)), 1u);
+      Surface_segmentation numbers;
+      numbers.noise = noise;
+      EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape_of(solids::stepped_shaft(meshing))), numbers)), 1u);
     }
 }
 
-TEST(EngineeringSegmentation, CutsACubeIntoSix) {
+TEST(SegmentationIntoSurfaces, CutsACubeIntoSix) {
   for (const std::size_t n : {1u, 2u, 7u}) {
     const Labels segments = segments_of(meshes::surface_mesh(meshes::cube(n)));
     EXPECT_EQ(number_of(segments), 6u);
-    for (std::size_t f = 0; f < segments.size(); ++f) EXPECT_EQ(segments[f], f / (2 * n * n));
+    for (std::size_t f = 0; f < segments.size(); ++f) EXPECT_EQ(segments[f], segments[f - f % (2 * n * n)]);
   }
   EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(meshes::cube_of_quads()))), 6u);
 }
 
-TEST(EngineeringSegmentation, LeavesASphereATorusAndAPlaneWhole) {
+TEST(SegmentationIntoSurfaces, LeavesASphereATorusAndAPlaneWhole) {
   for (const meshes::Shape& shape : {meshes::sphere(3), meshes::torus(2, 0.6, 40, 20), meshes::plane(10)})
     EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape))), 1u);
 }
 
-TEST(EngineeringSegmentation, GivesAsManySegmentsAsAskedFor) {
+TEST(SegmentationIntoSurfaces, GivesAsManySegmentsAsAskedFor) {
   const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
-  for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Engineering_segmentation(n))), n);
+  for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Surface_segmentation(n))), n);
 }
 
-TEST(EngineeringSegmentation, NeverJoinsComponents) {
+TEST(SegmentationIntoSurfaces, NeverJoinsComponents) {
   const meshes::Shape left = meshes::cube(3), right = meshes::moved(meshes::cube(3), {2, 0, 0});
   const Labels segments = segments_of(meshes::surface_mesh(meshes::together(left, right)));
   EXPECT_EQ(number_of(segments), 12u);
@@ -265,7 +267,7 @@ TEST(EngineeringSegmentation, NeverJoinsComponents) {
   EXPECT_TRUE(common.empty());
 }
 
-TEST(EngineeringSegmentation, DoesNotDependOnPositionAndSize) {
+TEST(SegmentationIntoSurfaces, DoesNotDependOnPositionAndSize) {
   const solids::Solid solid = solids::stepped_shaft(solids::even(0.2));
   const Labels segments = segments_of(solid);
   for (const double size : {1e-6, 1e6}) {
@@ -275,11 +277,52 @@ TEST(EngineeringSegmentation, DoesNotDependOnPositionAndSize) {
   }
 }
 
-template <class Holder>
-class EngineeringSegmentationOfMeshes : public testing::Test {};
-TYPED_TEST_SUITE(EngineeringSegmentationOfMeshes, meshes::Holders);
+// ---- Walls ----
 
-TYPED_TEST(EngineeringSegmentationOfMeshes, IsThatOfASurfaceMesh) {
+TEST(SegmentationIntoSurfaces, HasNoSegmentOnBothSidesOfAClosedLoopOfConstrainedEdges) {
+  const auto cut = [](const solids::Solid& solid, unsigned random_seed, const Surface_segmentation& numbers) {
+    SCOPED_TRACE(testing::Message() << solid.name << ", " << random_seed);
+    const auto mesh = meshes::surface_mesh(shape_of(solid));
+    const walls::Enclosure<meshes::Surface_mesh> enclosure(mesh, random_seed);
+    Labels labels(num_faces(mesh));
+    const auto ids = boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh));
+    const auto np = CGAL::parameters::edge_is_constrained_map(enclosure.constraints());
+    const auto hierarchy = hierarchy_of_surfaces(mesh, numbers, np);
+    const auto stop = [&](const Merge_tree& tree) { return numbers.stop(tree); };
+    const std::size_t segments = hierarchy.segments(stop, ids);
+    EXPECT_EQ(segments, number_of(labels));
+    EXPECT_TRUE(enclosure.on_both_sides(ids).empty());
+    EXPECT_EQ(hierarchy.report().components, hierarchy.number_of_components());
+    // As few as there are.
+    hierarchy.segments(Segment_count_stop(hierarchy.number_of_components()), ids);
+    EXPECT_TRUE(enclosure.on_both_sides(ids).empty());
+  };
+  for (const solids::Meshing& meshing : {solids::even(0.3), solids::by_kernel()})
+    for (const solids::Solid& solid : solids::all(meshing))
+      for (unsigned random_seed = 1; random_seed <= 4; ++random_seed) {
+        cut(solid, random_seed, {});
+        cut(solids::with_noise(solid, 0.2), random_seed, {});
+      }
+}
+
+TEST(SegmentationIntoSurfaces, CutsAPlaneAlongConstrainedEdges) {
+  const auto mesh = meshes::surface_mesh(meshes::cube(6));
+  const auto is_on_top = [&](meshes::Surface_mesh::Vertex_index v) { return mesh.point(v)[2] == 1; };
+  using Edge = meshes::Surface_mesh::Edge_index;
+  const auto middle = boost::make_function_property_map<Edge>([&](const Edge& e) {  // of a side, from edge to edge
+    const auto v = mesh.vertex(e, 0), w = mesh.vertex(e, 1);
+    return is_on_top(v) && is_on_top(w) && mesh.point(v)[0] == 0.5 && mesh.point(w)[0] == 0.5;
+  });
+  Labels labels(num_faces(mesh));
+  const auto ids = boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh));
+  EXPECT_EQ(segmentation_into_surfaces(mesh, ids, CGAL::parameters::edge_is_constrained_map(middle)), 7u);
+}
+
+template <class Holder>
+class SegmentationIntoSurfacesOfMeshes : public testing::Test {};
+TYPED_TEST_SUITE(SegmentationIntoSurfacesOfMeshes, meshes::Holders);
+
+TYPED_TEST(SegmentationIntoSurfacesOfMeshes, IsThatOfASurfaceMesh) {
   const solids::Solid solid = solids::cone_on_cylinder(solids::even(0.3));
   const TypeParam held(shape_of(solid));
   EXPECT_EQ(segments_of(held.mesh), segments_of(solid));
@@ -294,21 +337,25 @@ struct Fragments {
   std::vector<std::size_t> given_faces;
 };
 
-/// The fragments of a mesh without noise whose regions are given.
+/// The fragments of a mesh without noise whose regions are given, all in the order of the faces of the shape.
 Fragments fragments_of(const meshes::Shape& shape, const std::vector<std::size_t>& region_of_face) {
   const auto mesh = meshes::surface_mesh(shape);
-  const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
-  const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
-  const std::vector<double> angles = internal::edge_angles(graph, *data.geometry);
-  const std::vector<double> conductances(graph.number_of_edges(), 1);
-  internal::Region_fragments fragments(graph, *data.geometry, *data.corners, *data.tolerance, angles, conductances);
-  Fragments result{fragments.fragments(region_of_face, Progress()), {}};
-  for (std::size_t f = 0; f < region_of_face.size(); ++f)
-    if (fragments.is_given(f)) result.given_faces.push_back(f);
+  const Dual_mesh_of dual(mesh);
+  const internal::Surface_tolerance tolerance(dual, 0);
+  const std::vector<double> conductances(dual.number_of_edges(), 1);
+  std::vector<std::size_t> regions;
+  for (Dual_mesh::Index f = 0; f < dual.number_of_faces(); ++f) regions.push_back(region_of_face[dual.place(f)]);
+  internal::Region_fragments fragments(dual, tolerance, conductances);
+  const std::vector<std::size_t> fragment = fragments.fragments(regions, Progress());
+  Fragments result{std::vector<std::size_t>(fragment.size()), {}};
+  for (Dual_mesh::Index f = 0; f < fragment.size(); ++f) {
+    result.of_face[dual.place(f)] = fragment[f];
+    if (fragments.is_given(f)) result.given_faces.push_back(dual.place(f));
+  }
   return result;
 }
 
-constexpr std::size_t none = internal::Surface_growing::none;
+constexpr std::size_t none = internal::Analytic_regions::none;
 
 }  // namespace
 
@@ -337,30 +384,62 @@ TEST(FaceRefinement, KeepsTheSurfaceAndEndsAtTheLongestSide) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
     SCOPED_TRACE(solid.name);
     const auto mesh = meshes::surface_mesh(shape_of(solid));
-    const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
-    const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
-    const internal::Face_refinement refinement(graph, *data.corners, longest_side);
-    std::vector<double> area(graph.number_of_faces(), 0);
-    for (std::size_t t = 0; t < refinement.triangles().size(); ++t) {
-      const auto& triangle = refinement.triangles()[t];
-      const Eigen::Vector3d &a = refinement.points()[triangle[0]], &b = refinement.points()[triangle[1]],
-                            &c = refinement.points()[triangle[2]];
+    const Dual_mesh_of dual(mesh);
+    const internal::Face_refinement refinement(dual, longest_side);
+    const Dual_mesh& refined = refinement.mesh();
+    std::vector<double> area(dual.number_of_faces(), 0);
+    for (Dual_mesh::Index t = 0; t < refined.number_of_faces(); ++t) {
+      const auto corner = refined.corners(t);
+      ASSERT_EQ(corner.size(), 3u);
+      const Eigen::Vector3d &a = refined.point(corner[0]), &b = refined.point(corner[1]), &c = refined.point(corner[2]);
       for (const double side : {(b - a).norm(), (c - b).norm(), (a - c).norm()}) EXPECT_LE(side, longest_side);
-      area[refinement.faces()[t]] += (b - a).cross(c - a).dot(data.geometry->normal[refinement.faces()[t]]) / 2;
+      const Dual_mesh::Index f = refinement.faces()[t];
+      area[f] += (b - a).cross(c - a).dot(dual.normal(f)) / 2;
+      EXPECT_EQ(refined.shape_normals()[t], dual.normal(f));
     }
-    for (std::size_t f = 0; f < area.size(); ++f) EXPECT_NEAR(area[f], data.geometry->area[f], 1e-12);
-    EXPECT_EQ(2 * refinement.edges().first.size(), 3 * refinement.triangles().size());  // closed
+    for (Dual_mesh::Index f = 0; f < area.size(); ++f) EXPECT_NEAR(area[f], dual.area(f), 1e-12);
+    EXPECT_EQ(2 * refined.number_of_edges(), 3 * refined.number_of_faces());  // closed
+  }
+}
+
+TEST(FaceRefinement, GivesEachEdgeItsEndsInTheDirectionOfItsFirstTriangle) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  const Dual_mesh_of dual(mesh);
+  const internal::Face_refinement refinement(dual, 0.1);
+  const Dual_mesh& refined = refinement.mesh();
+  for (Dual_mesh::Index e = 0; e < refined.number_of_edges(); ++e) {
+    const auto corner = refined.corners(refined.graph().faces_of(e)[0]);
+    const auto [from, to] = refined.ends(e);
+    const auto first = static_cast<std::size_t>(std::find(corner.begin(), corner.end(), from) - corner.begin());
+    ASSERT_LT(first, 3u);
+    EXPECT_EQ(corner[(first + 1) % 3], to);
   }
 }
 
 TEST(FaceRefinement, LeavesSmallFacesAlone) {
   const meshes::Shape shape = meshes::cube(3);
   const auto mesh = meshes::surface_mesh(shape);
-  const Mesh_dual_graph<meshes::Surface_mesh> graph(mesh);
-  const auto data = internal::surface_data(mesh, graph, 0, CGAL::parameters::default_values());
-  const internal::Face_refinement refinement(graph, *data.corners, 1);
-  EXPECT_EQ(refinement.points().size(), shape.points.size());
-  EXPECT_EQ(refinement.triangles().size(), shape.faces.size());
+  const Dual_mesh_of dual(mesh);
+  const internal::Face_refinement refinement(dual, 1);
+  EXPECT_EQ(refinement.mesh().number_of_vertices(), shape.points.size());
+  EXPECT_EQ(refinement.mesh().number_of_faces(), shape.faces.size());
+}
+
+TEST(FaceRefinement, KeepsWallsBetweenTrianglesOfFacesThatHaveOne) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  for (unsigned random_seed = 1; random_seed < 10; ++random_seed) {
+    const walls::Enclosure<meshes::Surface_mesh> enclosure(mesh, random_seed);
+    const Dual_mesh_of dual(mesh, CGAL::parameters::edge_is_constrained_map(enclosure.constraints()));
+    const internal::Face_refinement refinement(dual, 0.1);
+    const Dual_mesh& refined = refinement.mesh();
+    for (Dual_mesh::Index e = 0; e < refined.number_of_edges(); ++e) {
+      const auto [t, u] = refined.graph().faces_of(e);
+      const auto is_inside = [&](Dual_mesh::Index triangle) {
+        return enclosure.is_inside(dual.face(refinement.faces()[triangle]));
+      };
+      EXPECT_EQ(refined.is_wall(e), is_inside(t) != is_inside(u));
+    }
+  }
 }
 
 // ---- The surfaces of the segments ----
@@ -395,17 +474,17 @@ TEST(SegmentSurfaces, RefusesIdsOutOfRange) {
 
 // ---- Errors ----
 
-TEST(EngineeringSegmentation, RefusesNumbersOutOfRange) {
+TEST(SegmentationIntoSurfaces, RefusesNumbersOutOfRange) {
   const auto mesh = meshes::surface_mesh(meshes::cube());
-  Engineering_segmentation policy;
-  policy.noise = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(segments_of(mesh, policy), std::invalid_argument);
-  EXPECT_THROW(segments_of(mesh, Engineering_segmentation(0)), std::invalid_argument);
+  Surface_segmentation numbers;
+  numbers.noise = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(segments_of(mesh, numbers), std::invalid_argument);
+  EXPECT_THROW(segments_of(mesh, Surface_segmentation(0)), std::invalid_argument);
 }
 
-TEST(EngineeringSegmentation, OfNoFacesIsEmpty) { EXPECT_TRUE(segments_of(meshes::Surface_mesh()).empty()); }
+TEST(SegmentationIntoSurfaces, OfNoFacesIsEmpty) { EXPECT_TRUE(segments_of(meshes::Surface_mesh()).empty()); }
 
-TEST(EngineeringSegmentation, TheCallbackSeesProgressAndCancels) {
+TEST(SegmentationIntoSurfaces, TheCallbackSeesProgressAndCancels) {
   const auto mesh = meshes::surface_mesh(meshes::l_shape(3));
   const Labels untouched(mesh.number_of_faces(), 99);
   Labels labels = untouched;
@@ -416,8 +495,7 @@ TEST(EngineeringSegmentation, TheCallbackSeesProgressAndCancels) {
       seen.push_back(fraction);
       return fraction < end;
     };
-    const std::vector<meshes::Surface_mesh::Face_index> none;
-    segmentation_via_random_walks(mesh, ids, Engineering_segmentation(), none, CGAL::parameters::callback(callback));
+    segmentation_into_surfaces(mesh, ids, CGAL::parameters::callback(callback));
   };
   for (const double end : {0.01, 0.3, 0.82, 0.9}) {
     EXPECT_THROW(run(end), Cancelled);
