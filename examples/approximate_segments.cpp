@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A mesh of few polygons: CGAL's Variational Shape Approximation of each segment of a part of a machine.
 //
 //   approximate_segments MESH PROXIES_PER_SEGMENT [OUT.off]
@@ -5,9 +7,8 @@
 // A segment that is a plane gets one proxy, all others get the given number. No proxy crosses a boundary between
 // surfaces. The segments are approximated one by one, so that their borders do not fit together on curved joints.
 
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/segment_surfaces.h>
-#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
@@ -68,8 +69,7 @@ int main(int argc, char** argv) {
   CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
   auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
   try {
-    const std::size_t segments =
-        RW_segmentation::segmentation_via_random_walks(mesh, segment, RW_segmentation::Engineering_segmentation());
+    const std::size_t segments = RW_segmentation::segmentation_into_surfaces(mesh, segment);
     const auto surfaces = RW_segmentation::segment_surfaces(mesh, segment, segments);
     Triangles result;
     for (std::size_t s = 0; s < segments; ++s) {

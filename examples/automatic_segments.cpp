@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Segments without seeds: as many as the shape suggests, then every number from two to eight.
 //
 //   automatic_segments MESH

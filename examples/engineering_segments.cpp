@@ -1,9 +1,12 @@
-// The plane, cylinder, cone, sphere or torus that each segment of a part of a machine lies on.
+// Parts of machines in two ways: into planes, cylinders, cones, spheres and tori, and by the paper's difference of
+// curvatures in the one call.
 //
 //   engineering_segments MESH
 
-#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/Curvature_difference.h>
 #include <RW_segmentation/segment_surfaces.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Simple_cartesian.h>
@@ -14,6 +17,7 @@
 #include <iostream>
 
 using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+namespace RW = RW_segmentation;
 
 const char* const names[] = {"plane", "sphere", "cylinder", "cone", "torus", "free form"};  // as in Surface_type
 
@@ -25,10 +29,17 @@ int main(int argc, char** argv) {
   }
   auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
   try {
-    const std::size_t segments =
-        RW_segmentation::segmentation_via_random_walks(mesh, segment, RW_segmentation::Engineering_segmentation());
-    for (const RW_segmentation::Analytic_surface& surface : RW_segmentation::segment_surfaces(mesh, segment, segments))
+    //! [surfaces]
+    const std::size_t segments = RW::segmentation_into_surfaces(mesh, segment);
+    for (const RW::Analytic_surface& surface : RW::segment_surfaces(mesh, segment, segments))
       std::cout << names[static_cast<std::size_t>(surface.type)] << '\n';
+    //! [surfaces]
+
+    //! [paper]
+    const auto policies = RW::Automatic_segmentation().with_difference(RW::Curvature_difference_policy());
+    const std::size_t parts = RW::segmentation_via_random_walks(mesh, segment, policies);
+    //! [paper]
+    std::cout << parts << " parts by the difference of curvatures\n";
   } catch (const std::exception& error) {
     std::cerr << argv[1] << ": " << error.what() << '\n';
     return 1;

@@ -7,6 +7,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
@@ -68,9 +69,9 @@ int main(int argc, char** argv) {
   }
   auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
 
-  const RW_segmentation::Dihedral_difference difference(mesh);
-  const RW_segmentation::Conductance conductance(mesh, difference);
-  Walk walk(mesh, conductance);
+  const RW_segmentation::Dual_mesh_of dual(mesh);
+  const RW_segmentation::Conductance conductance(dual, RW_segmentation::Dihedral_difference(dual));
+  Walk walk(dual, conductance);
   std::vector<Edit> edits;
 
   for (std::string line; std::getline(std::cin, line);) {

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A large mesh in two ways: with the walk reduced to clusters of faces, as it is by itself above 2.5 million faces, and by
 // way of a simplified copy whose segments are carried back.
 //
@@ -5,6 +7,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/transfer_segments.h>
@@ -19,7 +22,6 @@
 #include <iostream>
 
 using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-using Vector = CGAL::Simple_cartesian<double>::Vector_3;
 using namespace RW_segmentation;
 
 /// Stops at a quarter of the edges. CGAL's own predicate has another name in each of its versions 5 and 6.
@@ -39,9 +41,9 @@ int main(int argc, char** argv) {
   auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
   try {
     // Clusters of faces, whatever the size of the mesh.
-    Automatic_segmentation policy;
-    policy.reduction.largest_direct = 0;
-    std::cout << segmentation_via_random_walks(mesh, segment, policy) << " segments by clusters\n";
+    Automatic_segmentation policies;
+    policies.reduction.largest_direct = 0;
+    std::cout << segmentation_via_random_walks(mesh, segment, policies) << " segments by clusters\n";
 
     // A copy with a quarter of the edges, and back.
     Mesh reduced = mesh;
@@ -50,10 +52,10 @@ int main(int argc, char** argv) {
     auto reduced_segment = reduced.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
     segmentation_via_random_walks(reduced, reduced_segment);
 
-    auto normal = mesh.add_property_map<Mesh::Face_index, Vector>("f:normal").first;
-    smoothed_face_normals(mesh, normal);
-    const Conductance<Mesh> conductance(mesh, Dihedral_difference<Mesh>(mesh, normal, 0, Dihedral_measure::angle));
-    std::cout << transfer_segments(reduced, reduced_segment, mesh, conductance, segment)
+    const Dual_mesh_of dual(mesh);
+    const Dual_mesh_of shape = smoothed_shape(dual);
+    const Conductance conductance(shape, Dihedral_difference(shape, smoothed_concavity()));
+    std::cout << transfer_segments(reduced, reduced_segment, dual, conductance, segment)
               << " segments by a simplified copy of " << reduced.number_of_faces() << " faces\n";
   } catch (const std::exception& error) {
     std::cerr << argv[1] << ": " << error.what() << '\n';

@@ -1,4 +1,5 @@
-// A difference of one's own, in three ways: values stored in a property map, a lambda, and a class.
+// A difference of one's own, in three ways: values stored in a property map, a lambda, and a class; and conductances of
+// one's own.
 //
 //   own_difference CUBE
 //
@@ -70,9 +71,8 @@ Face face_on_side(const Mesh& mesh, const Kernel::Vector_3& axis) {
   return best;
 }
 
-template <class Difference>
-void print_segments(const char* name, const Mesh& mesh, const Difference& difference, const std::vector<Face>& seeds) {
-  const RW_segmentation::Conductance conductance(mesh, difference);
+template <class Conductance>
+void print_walk(const char* name, const Mesh& mesh, const Conductance& conductance, const std::vector<Face>& seeds) {
   std::map<Face, std::size_t> segment;
   RW_segmentation::segmentation_from_seeds(mesh, conductance, seeds, boost::make_assoc_property_map(segment));
   std::map<std::size_t, std::size_t> faces_of;
@@ -80,6 +80,11 @@ void print_segments(const char* name, const Mesh& mesh, const Difference& differ
   std::cout << name << ':';
   for (const auto& [id, faces] : faces_of) std::cout << ' ' << faces;
   std::cout << '\n';
+}
+
+template <class Difference>
+void print_segments(const char* name, const Mesh& mesh, const Difference& difference, const std::vector<Face>& seeds) {
+  print_walk(name, mesh, RW_segmentation::Conductance(mesh, difference), seeds);
 }
 
 int main(int argc, char** argv) {
@@ -104,4 +109,10 @@ int main(int argc, char** argv) {
 
   // 3. A class.
   print_segments("class", mesh, Crease_difference(mesh, 0.5, 10), seeds);
+
+  //! [conductance]
+  // Conductances: how easily a walk crosses each edge.
+  const auto ease = boost::make_function_property_map<Edge>([&](Edge e) { return std::exp(-10 * turn(mesh, e)); });
+  print_walk("conductance", mesh, RW_segmentation::as_conductance(ease), seeds);
+  //! [conductance]
 }

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A pipeline of CGAL: read, repair, segment, and one well-meshed part for each segment.
 //
 //   pipeline MESH EDGE_LENGTH [FOLDER]

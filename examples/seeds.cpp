@@ -4,6 +4,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
@@ -25,10 +26,12 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  // How different two neighbouring faces are, how easily the walk passes between them, and the walk.
-  const RW_segmentation::Dihedral_difference difference(mesh);
-  const RW_segmentation::Conductance conductance(mesh, difference);
-  RW_segmentation::Random_walk walk(mesh, conductance);
+  // How different two neighbouring faces are, how easily the walk passes between them, and the walk. The mesh is read once
+  // for all three of them; each takes the mesh itself as well.
+  const RW_segmentation::Dual_mesh_of dual(mesh);
+  const RW_segmentation::Dihedral_difference difference(dual);
+  const RW_segmentation::Conductance conductance(dual, difference);
+  RW_segmentation::Random_walk walk(dual, conductance);
 
   for (int i = 2; i < argc; ++i)
     walk.add_seed(Face(static_cast<Mesh::size_type>(std::stoul(argv[i]))), static_cast<std::size_t>(i - 2));

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The command-line tool: mesh files in, coloured meshes, labels and probabilities out.
 
 #include "segment_mesh/Options.h"

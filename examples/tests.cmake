@@ -24,7 +24,11 @@ example_test(own_difference own_difference ARGUMENTS ${meshes}/cube-meshed.off
   PRINTS "stored map: 288 288 288 288 288 288" "lambda: 288 288 288 288 288 288" "class: 288 288 288 288 288 288")
 
 example_test(own_policies own_policies ARGUMENTS ${meshes}/bear.off
-  PRINTS "^[1-9][0-9]* segments by the largest gap\n30 segments, half of the fragments\n$")
+  PRINTS "^edge map: [1-9]" "\nsolver with settings: [1-9]" "\nall: [1-9][0-9]* segments\n30 segments, half of the fragments\n$")
+
+# What CGAL's SDF segmentation finds, too, and diameters stored once for several numbers of segments.
+example_test(from_sdf from_sdf ARGUMENTS ${meshes}/elephant.off
+  PRINTS "^CGAL: [1-9][0-9]* segments\nwalks: [1-9][0-9]* segments\n" ", segments 3 4 5\n$")
 
 # The parts of a bear, from seeds and without.
 example_test(seeds seeds ARGUMENTS ${meshes}/bear.off 11763 11824 1483 8789 8748 9212 9211 167
@@ -36,7 +40,7 @@ example_test(large_mesh large_mesh ARGUMENTS ${meshes}/bear.off
   PRINTS "^[1-9][0-9]* segments by clusters\n[1-9][0-9]* segments by a simplified copy of 6912 faces\n$")
 
 example_test(engineering_segments engineering_segments ARGUMENTS ${meshes}/cube-meshed.off
-  PRINTS "^plane\nplane\nplane\nplane\nplane\nplane\n$")
+  PRINTS "^plane\nplane\nplane\nplane\nplane\nplane\n[1-9][0-9]* parts by the difference of curvatures\n$")
 
 # A seed in the middle of each side.
 example_test(curvature_seeds curvature_seeds ARGUMENTS ${meshes}/cube-meshed.off 401 853 1228 1239 831 1290
@@ -72,6 +76,17 @@ example_test(segment_mesh.polygons segment_mesh
 example_test(segment_mesh.stl segment_mesh
   ARGUMENTS ${meshes}/pig.stl --labels segments.seg
   PRINTS "\n   16 +[0-9]+ +[0-9.]+ %\n"
+  WRITES segments.seg)
+
+# Other policies, and walls: the sharp edges of a cube.
+example_test(segment_mesh.policies segment_mesh
+  ARGUMENTS ${meshes}/bear.off --difference dihedral --seeding particles --merge-cost boundary --solver eigen --segments 5
+    --labels segments.seg
+  PRINTS "\n    4 +[0-9]+ +[0-9.]+ %\n$"
+  WRITES segments.seg)
+example_test(segment_mesh.walls segment_mesh
+  ARGUMENTS ${meshes}/cube-meshed.off --constraints-angle 45 --segments 6 --labels segments.seg
+  PRINTS "\n    0 +288 +16.67 %\n" "\n    5 +288 +16.67 %\n$"
   WRITES segments.seg)
 
 example_test(segment_mesh.engineering segment_mesh

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef MESH_FILES_POLYGON_SOUP_H
 #define MESH_FILES_POLYGON_SOUP_H
 

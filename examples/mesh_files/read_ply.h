@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef MESH_FILES_READ_PLY_H
 #define MESH_FILES_READ_PLY_H
 

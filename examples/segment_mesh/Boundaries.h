@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_BOUNDARIES_H
 #define SEGMENT_MESH_BOUNDARIES_H
 
 #include "../mesh_files.h"
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
+#include "walls.h"
 
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
@@ -17,13 +20,13 @@ namespace segment_mesh {
 
 using Boundary_curves = std::vector<RW_segmentation::Boundary_curve<Mesh>>;
 
-/// The boundaries between the segments, smooth ones or as they run along the edges.
-inline Boundary_curves boundary_curves(const Mesh& mesh, std::vector<std::size_t>& label, bool is_smooth,
-                                       const std::function<bool(double)>& callback) {
+/// The boundaries between the segments, smooth ones or as they run along the edges; those on walls stay there.
+inline Boundary_curves boundary_curves(const Mesh& mesh, const Wall_map& walls, std::vector<std::size_t>& label,
+                                       bool is_smooth, const std::function<bool(double)>& callback) {
   RW_segmentation::Boundary_smoothing smoothing;
   if (!is_smooth) smoothing.largest_displacement = 0;
   return RW_segmentation::smooth_boundaries(mesh, face_map(mesh, label), smoothing,
-                                            CGAL::parameters::callback(callback));
+                                            CGAL::parameters::callback(callback).edge_is_constrained_map(walls));
 }
 
 /// Notes which face each new one was part of.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_ORIENTED_MESH_H
 #define SEGMENT_MESH_ORIENTED_MESH_H
 
@@ -41,15 +43,26 @@ auto face_map(const Mesh& mesh, std::vector<Value>& values) {
   return boost::make_iterator_property_map(values.begin(), get(boost::face_index, mesh));
 }
 
-/// The area of a face in squares of `unit`.
-inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
+/// The normal of a face, twice as long as its area in squares of `unit`.
+inline Mesh_vector normal_of_twice_the_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
   const auto first = mesh.halfedge(f);
   const Point& apex = mesh.point(mesh.source(first));
-  Mesh_vector twice_the_area = CGAL::NULL_VECTOR;
+  Mesh_vector normal = CGAL::NULL_VECTOR;
   for (const auto h : mesh.halfedges_around_face(first))
-    twice_the_area = twice_the_area + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
-                                                          (mesh.point(mesh.target(h)) - apex) / unit);
-  return CGAL::approximate_sqrt(twice_the_area.squared_length()) / 2;
+    normal = normal + CGAL::cross_product((mesh.point(mesh.source(h)) - apex) / unit,
+                                          (mesh.point(mesh.target(h)) - apex) / unit);
+  return normal;
+}
+
+/// The area of a face in squares of `unit`.
+inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
+  return CGAL::approximate_sqrt(normal_of_twice_the_area(mesh, f, unit).squared_length()) / 2;
+}
+
+/// The largest side of the box around a mesh.
+inline double extent_of(const Mesh& mesh) {
+  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
+  return std::max({box.x_span(), box.y_span(), box.z_span()});
 }
 
 /// A halfedge mesh of the faces of a file.
@@ -186,8 +199,7 @@ inline std::vector<Component> components(const Mesh& mesh) {
   std::vector<Component> result(CGAL::Polygon_mesh_processing::connected_components(mesh, component_map));
   if (result.empty()) return result;
 
-  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
-  const double extent = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const double extent = extent_of(mesh);
   for (const auto f : mesh.faces()) {
     Component& component = result[get(component_map, f)];
     component.faces.push_back(f);

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_OUTPUT_FILES_H
 #define SEGMENT_MESH_OUTPUT_FILES_H
 
@@ -82,7 +84,7 @@ class Output_files {
   }
 
   void write_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments) {
-    if (page_) page_->write(file(files_.html), result_for_page(path, mesh, result, segments, options_.mode()));
+    if (page_) page_->write(file(files_.html), result_for_page(path, mesh, result, segments, options_));
   }
 
   void write_boundaries(const Boundary_curves& curves) {

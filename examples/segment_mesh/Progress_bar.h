@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_PROGRESS_BAR_H
 #define SEGMENT_MESH_PROGRESS_BAR_H
 

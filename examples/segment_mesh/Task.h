@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_TASK_H
 #define SEGMENT_MESH_TASK_H
 
@@ -54,8 +56,9 @@ inline Files files_for(const std::string& mesh, Files patterns) {
       path.replace(at, 1, name);
   };
   for (std::string& path : patterns.outputs) replace(path);
-  for (std::string* path : {&patterns.seeds, &patterns.labels, &patterns.split, &patterns.probabilities,
-                            &patterns.hierarchy, &patterns.boundaries, &patterns.html, &patterns.report})
+  for (std::string* path :
+       {&patterns.seeds, &patterns.constraints, &patterns.labels, &patterns.split, &patterns.probabilities,
+        &patterns.hierarchy, &patterns.boundaries, &patterns.html, &patterns.report})
     replace(*path);
   return patterns;
 }

@@ -1,16 +1,34 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_COMMAND_LINE_H
 #define SEGMENT_MESH_COMMAND_LINE_H
 
+#include "Method.h"
 #include "Options.h"
 #include "help_sections.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
-#include <map>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace segment_mesh {
+
+/// Adds an option with a few named choices.
+template <class Choice>
+void add_choice(CLI::App& app, const std::string& option, std::optional<Choice>& chosen, const Names<Choice>& names,
+                const std::string& description, const std::string& group) {
+  const auto choose = [option, &chosen, &names](const std::string& name) {
+    try {
+      chosen = choice_of(names, name);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(option, error.what());
+    }
+  };
+  app.add_option_function<std::string>(option, choose, description)->option_text(listed(names, "|"))->group(group);
+}
 
 /// Makes the command line that fills the options.
 inline void define_command_line(CLI::App& app, Options& options) {
@@ -61,8 +79,18 @@ inline void define_command_line(CLI::App& app, Options& options) {
           ->excludes(automatic_seeds)
           ->group("Automatic segments");
   auto* paper =
-      app.add_flag("--paper", options.is_paper, "The numbers of the paper instead of those that agree best with people")
+      app.add_flag("--paper", options.is_paper,
+                   "What the paper uses instead of what agrees best with people: --difference dihedral --smoothing 0\n"
+                   "--seeding particles --merge-cost boundary, and 60 seeds")
           ->group("Automatic segments");
+  add_choice(app, "--seeding", options.seeding, seeding_names,
+             "Where automatic seeds are placed: far apart (default), as evenly as particles that repel each other,\n"
+             "or one on each large structure, as many as there are unless --seeds tells",
+             "Automatic segments");
+  add_choice(app, "--merge-cost", options.merge_cost, merge_cost_names,
+             "Which fragments are merged first: small ones, and those as thick as each other (default), or those with\n"
+             "the weakest boundary, as in the paper",
+             "Automatic segments");
   app.add_flag("--engineering", options.is_engineering,
                "For parts of machines: each segment is a plane, sphere, cylinder, cone or torus, or a free form;\n"
                "--report tells which")
@@ -73,16 +101,19 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->excludes(paper)
       ->group("Automatic segments");
 
+  add_choice(app, "--difference", options.difference, difference_names,
+             "What makes neighbouring faces differ: the angle between them as in the paper, its concavity (default),\n"
+             "which counts convex creases less, or not at all, or the difference of curvatures, for parts of machines",
+             "Difference of faces");
   app.add_option("--convex-weight", options.convex_weight,
                  "How much convex creases count beside concave ones, 0 to 1: 0 for automatic segments and\n"
                  "0.02 for seeds suit natural shapes; 1 with --smoothing 0 suits parts of machines")
       ->option_text("NUMBER")
       ->group("Difference of faces");
-  app.add_option("--measure", options.measure, "What is taken of the angle between faces: itself, or 1 - cosine")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, RW_segmentation::Dihedral_measure>{
-          {"angle", RW_segmentation::Dihedral_measure::angle},
-          {"cosine", RW_segmentation::Dihedral_measure::one_minus_cosine}}))
-      ->option_text("angle|cosine")
+  add_choice(app, "--measure", options.measure, measure_names,
+             "What is taken of the angle between faces: itself, or 1 - cosine", "Difference of faces");
+  app.add_option("--radius", options.radius, "Of the balls in which curvatures are measured, in mean edge lengths (3)")
+      ->option_text("NUMBER")
       ->group("Difference of faces");
   app.add_option("--smoothing", options.smoothing,
                  "Smoothing length of the normals as a part of the square root of the area; 0 smooths nothing")
@@ -94,6 +125,22 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--cap", options.cap, "The largest difference / sigma that counts, or inf")
       ->option_text("NUMBER")
       ->group("Walk");
+
+  add_choice(app, "--solver", options.solver, solver_names,
+             "What computes the walk: the library's own elimination (default), or Eigen's Cholesky factorisation",
+             "Walk");
+
+  app.add_option(
+         "--constraints", options.files.constraints,
+         "A file of edges that are walls, which no walk, merge or surface crosses: two vertices a line, by their\n"
+         "numbers in the file of the mesh, from 0; # starts a comment. After a repair they stand for all edges\n"
+         "between the places of the two.")
+      ->option_text("FILE")
+      ->group("Walls");
+  app.add_option("--constraints-angle", options.constraints_angle,
+                 "Edges are walls, too, over which the surface turns by more than this angle")
+      ->option_text("DEGREES")
+      ->group("Walls");
 
   app.add_flag("--smooth", options.is_smooth, "Smooth the boundaries between segments; they keep to creases")
       ->group("Boundaries");

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_HELP_SECTIONS_H
 #define SEGMENT_MESH_HELP_SECTIONS_H
 
@@ -20,7 +22,7 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "Animals, people, furniture: no option at all. Parts of machines: --engineering. Too many or too few segments:\n"
      "--segments. Parts that you have in mind: --seed, one or more for each. A seed is a face or the closest face to "
      "a\n"
-     "point; faces are numbered from 0 in the order of the file.\n",
+     "point; faces are numbered from 0 in the order of the file. Edges that no segment may cross: --constraints.\n",
      false},
     {"Outputs",
      "Every output keeps the order of the faces in the file, only OBJ has them segment by segment. Faces that a "
@@ -31,12 +33,10 @@ constexpr std::array<Help_section, 5> help_sections = {{
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"
-     "(and of --seeds-file), % stands for the name of the mesh, without folder and extension. A --report without % "
-     "gets\n"
-     "one line for each mesh as soon as it is done, with \"error\" in it if it failed. With --resume, meshes are "
-     "passed\n"
-     "over whose outputs are all there and not older than the mesh; the report goes on after its last line. Whether\n"
-     "other options have changed is not looked at.\n",
+     "(and of --seeds-file and --constraints), % stands for the name of the mesh, without folder and extension. A\n"
+     "--report without % gets one line for each mesh as soon as it is done, with \"error\" in it if it failed. With\n"
+     "--resume, meshes are passed over whose outputs are all there and not older than the mesh; the report goes on\n"
+     "after its last line. Whether other options have changed is not looked at.\n",
      false},
     {"Exit codes",
      "  0  success\n"
@@ -55,6 +55,7 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
      "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
      "  segment_mesh hand.off --html hand.html\n"
+     "  segment_mesh part.stl --constraints-angle 40 --segments 9 --labels part.seg\n"
      "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n"
      "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n",
      true},

@@ -1,8 +1,12 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_HTML_PAGE_H
 #define SEGMENT_MESH_HTML_PAGE_H
 
 #include "../mesh_files.h"
 #include "Boundaries.h"
+#include "Method.h"
+#include "Options.h"
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
 #include "report.h"
@@ -104,21 +108,30 @@ inline Json levels_of(const Segmentation& result) {
           {"suggested", result.suggested}};
 }
 
+/// What a natural shape was segmented by, as a page takes it.
+inline Json policies_for_page(const Method& method) {
+  return {{"difference", name_of(difference_names, method.difference)},
+          {"seeding", name_of(seeding_names, method.seeding)},
+          {"mergeCost", name_of(merge_cost_names, method.merge_cost)}};
+}
+
 /// A segmentation as a page takes it.
 inline Json result_for_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments,
-                            const char* mode) {
+                            const Options& options) {
   std::string ply;
   mesh_files::Buffer out([&](std::string_view bytes) { ply += bytes; });
   mesh_files::write_ply(out, soup_of(mesh), {}, result.label);
   Json seeds = Json::array();
   for (const auto& [face, label] : result.labelled_seeds)
     seeds.push_back({{"face", static_cast<std::size_t>(face)}, {"label", label}});
+  const std::string mode = options.mode();
   return {{"name", std::filesystem::path(path).filename().string()},
           {"mesh", base64(ply)},
           {"labels", base64_of<std::uint32_t>(result.label)},
           {"hierarchy", levels_of(result)},
           {"segments", segments},
           {"mode", mode},
+          {"policies", mode == "graphical" ? policies_for_page(method_of(options)) : Json()},
           {"seeds", std::move(seeds)}};
 }
 

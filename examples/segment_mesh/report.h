@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_REPORT_H
 #define SEGMENT_MESH_REPORT_H
 
 #include "../mesh_files/Polygon_soup.h"
+#include "Method.h"
 #include "Options.h"
 #include "Segmentation.h"
 #include "segments.h"
@@ -12,6 +15,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace segment_mesh {
@@ -51,25 +55,40 @@ inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
   return result;
 }
 
-template <class Policy>
-Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& soup, const std::vector<std::string>& remarks,
-               const Policy& policy, const Segmentation& result, const std::vector<Segment>& segments,
-               const Json& milliseconds) {
+/// The numbers and the names of what segments are made by. Surfaces have none.
+inline Json parameters_of(const Options& options, const Method& method) {
+  Json parameters = Json::object();
+  if (options.is_engineering) return parameters;
+  parameters["difference"] = name_of(difference_names, method.difference);
+  if (method.difference == Difference::curvature) {
+    parameters["radius"] = method.radius.value();
+  } else {
+    parameters["convex_weight"] = method.angles.convex_weight;
+    parameters["measure"] = name_of(measure_names, method.angles.measure);
+  }
+  parameters["smoothing"] = method.smoothing.radius;
+  parameters["sigma"] = method.sigma;
+  parameters["cap"] = method.cap;
+  if (options.merges() || options.is_coarse) parameters["seeding"] = name_of(seeding_names, method.seeding);
+  parameters["solver"] = name_of(solver_names, method.solver);
+  if (options.merges()) parameters["merge_cost"] = name_of(merge_cost_names, method.merge_cost);
+  return parameters;
+}
+
+inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& soup,
+                      const std::vector<std::string>& remarks, Json parameters, const Segmentation& result,
+                      const std::vector<Segment>& segments, const Json& milliseconds) {
   Json report = {{"mesh", mesh},
                  {"vertices", soup.points.size()},
                  {"faces", soup.number_of_faces()},
                  {"repairs", remarks},
                  {"degenerate_faces", result.degenerate_faces},
+                 {"walls", result.walls},
                  {"unseeded_components", result.unseeded_components},
                  {"island_faces", result.island_faces},
                  {"heavy_noise", result.has_heavy_noise},
                  {"seeds", result.seeds},
-                 {"parameters",
-                  {{"smoothing", policy.smoothing.radius},
-                   {"convex_weight", policy.convex_weight},
-                   {"measure", policy.measure == RW_segmentation::Dihedral_measure::angle ? "angle" : "cosine"},
-                   {"sigma", policy.sigma},
-                   {"cap", policy.cap}}},
+                 {"parameters", std::move(parameters)},
                  {"segments", Json::array()},
                  {"milliseconds", milliseconds},
                  {"version", version()}};

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_RUN_H
 #define SEGMENT_MESH_RUN_H
 
@@ -13,10 +15,9 @@
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
+#include "walls.h"
 
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include <CLI/CLI.hpp>
 
@@ -86,11 +87,11 @@ inline std::vector<std::string> remarks_on(const Segmentation& result) {
 
 /// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
 inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
-                             Segmentation& result, Stages& stages, Output_files& files) {
+                             const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
   if (!options.is_refined && options.files.boundaries.empty()) return;
   const auto callback = stages.start("boundaries");
   const Boundary_curves curves =
-      boundary_curves(input.mesh, result.label, options.is_smooth || options.is_refined, callback);
+      boundary_curves(input.mesh, walls, result.label, options.is_smooth || options.is_refined, callback);
   files.write_boundaries(curves);
   if (!options.is_refined) return;
   cut_boundaries(input.mesh, curves, result);
@@ -98,12 +99,25 @@ inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& s
   input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
 }
 
-/// Segments a mesh by a policy and writes its files.
+/// The walls that the user asks for.
+/// \throws std::invalid_argument if there is no such edge
+inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& constraints,
+                         const mesh_files::Polygon_soup& soup, Mesh& mesh) {
+  const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+  mark_constraints(soup, constraints, mesh, walls);
+  if (options.constraints_angle) mark_sharp_edges(mesh, *options.constraints_angle, walls);
+  return walls;
+}
+
+/// Segments a mesh as the options tell and writes its files.
+/// \param title of the progress bar
 /// \returns the report
-template <class Policy>
-Json segment_task(const Task& task, const Options& options, const Policy& numbers, Stages& stages) {
+inline Json run(const Task& task, const Options& options, const std::string& title) {
+  Stages stages(!options.is_quiet, title, is_interrupted, Deadline(options.seconds));
   const std::vector<Seed_argument> seed_texts = seed_arguments(options, task.files.seeds);
-  const Policy policy = policy_of(options, numbers);
+  std::vector<Constraint> constraints;
+  if (!task.files.constraints.empty()) constraints = read_constraints(task.files.constraints);
+  const Method method = method_of(options);
   const auto remark = [&](const std::vector<std::string>& remarks) {
     if (options.is_quiet) return;
     for (const std::string& text : remarks) say(task.mesh + ": " + text);
@@ -119,32 +133,24 @@ Json segment_task(const Task& task, const Options& options, const Policy& number
   remark(input.remarks);
 
   const std::vector<Face_label> seeds = seed_faces(seed_texts, input);
+  const Wall_map walls = walls_of(options, constraints, soup, input.mesh);
   // Before the first output is created, or a signal in between would leave it behind.
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   Output_files files(task.files, options);
-  Segmentation result = segment(input.mesh, seeds, options, policy, stages);
-  treat_boundaries(options, soup, input, result, stages, files);
+  Segmentation result = segment(input.mesh, walls, seeds, options, method, stages);
+  treat_boundaries(options, soup, input, walls, result, stages, files);
 
   stages.start("writing");
   const std::vector<Segment> segments = segments_of(input.mesh, result.label);
   files.write(soup, faces_in_file_order(soup, input), result, segments);
   files.write_page(task.mesh, input.mesh, result, segments.size());
   stages.end();
-  Json report = report_of(task.mesh, soup, input.remarks, policy, result, segments, stages.milliseconds());
+  Json report = report_of(task.mesh, soup, input.remarks, parameters_of(options, method), result, segments,
+                          stages.milliseconds());
   files.commit(report);
   remark(remarks_on(result));
   return report;
-}
-
-/// Segments a mesh as the options tell and writes its files.
-/// \param title of the progress bar
-/// \returns the report
-inline Json run(const Task& task, const Options& options, const std::string& title) {
-  Stages stages(!options.is_quiet, title, is_interrupted, Deadline(options.seconds));
-  if (options.is_engineering) return segment_task(task, options, RW_segmentation::Engineering_segmentation(), stages);
-  if (options.is_paper) return segment_task(task, options, RW_segmentation::Paper_segmentation(), stages);
-  return segment_task(task, options, default_policy(options), stages);
 }
 
 }  // namespace segment_mesh

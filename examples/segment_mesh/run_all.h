@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_RUN_ALL_H
 #define SEGMENT_MESH_RUN_ALL_H
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_SEEDS_H
 #define SEGMENT_MESH_SEEDS_H
 

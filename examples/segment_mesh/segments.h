@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef SEGMENT_MESH_SEGMENTS_H
 #define SEGMENT_MESH_SEGMENTS_H
 
@@ -28,8 +30,7 @@ inline std::vector<Segment> segments_of(const Mesh& mesh, const std::vector<std:
   std::vector<Segment> segments(labels.size());
   std::vector<std::size_t> id(label.size());
 
-  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
-  const double extent = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const double extent = extent_of(mesh);
   double total_area = 0;
   for (const auto f : mesh.faces()) {
     id[f] = static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label[f]) - labels.begin());

@@ -1,14 +1,18 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef BROWSER_ENGINE_SESSION_H
 #define BROWSER_ENGINE_SESSION_H
 
 #include "../../mesh_files/Polygon_soup.h"
+#include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/Segment_hierarchy.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/smoothed_face_normals.h>
@@ -84,11 +88,10 @@ class Session {
   /// Makes the walk anew for other numbers; the seeds stay.
   void prepare(double convex_weight, double sigma) {
     namespace RW = RW_segmentation;
-    std::vector<segment_mesh::Mesh_vector> values(mesh().number_of_faces());
-    const auto normals = face_map(mesh(), values);
-    RW::smoothed_face_normals(mesh(), normals, RW::Normal_smoothing());
-    const RW::Dihedral_difference difference(mesh(), normals, convex_weight, RW::Dihedral_measure::angle);
-    Walk walk(mesh(), RW::Conductance(mesh(), difference, sigma));
+    const RW::Dual_mesh_of dual(mesh());
+    const RW::Dual_mesh_of shape(dual.with_shape_normals(RW::smoothed_shape(dual).shape_normals()), dual);
+    const RW::Dihedral_difference difference(shape, convex_weight, RW::Dihedral_measure::angle);
+    Walk walk(dual, RW::Conductance(shape, difference, sigma));
     if (walk_)
       for (const auto& [face, label] : walk_->seeds()) walk.add_seed(face, label);
     walk_ = std::move(walk);
@@ -131,25 +134,19 @@ class Session {
     return result;
   }
 
-  /// Segments without seeds.
-  /// \tparam Policy of `RW_segmentation::segmentation_via_random_walks()`
-  template <class Policy>
-  Levels levels(const Policy& policy, const Progress_callback& callback) const {
+  /// Segments without seeds; of the solvers the page holds one.
+  Levels levels(const segment_mesh::Method& method, const Progress_callback& callback) const {
     namespace RW = RW_segmentation;
-    const auto hierarchy = RW::hierarchy_via_random_walks(mesh(), policy, std::vector<Mesh::Face_index>(),
-                                                          CGAL::parameters::callback(callback));
-    Levels levels;
-    levels.fragments = hierarchy.number_of_fragments();
-    levels.components = hierarchy.number_of_components();
-    levels.suggested = policy.stop(hierarchy);
-    levels.fragment_of_face.resize(mesh().number_of_faces());
-    hierarchy.segments(RW::Segment_count_stop(levels.fragments), face_map(mesh(), levels.fragment_of_face));
-    for (const auto& merge : hierarchy.merges()) {
-      for (const std::size_t region : {merge.first, merge.second})
-        levels.merged_regions.push_back(static_cast<std::uint32_t>(region));
-      levels.costs.push_back(merge.cost);
-    }
-    return levels;
+    const auto policies = segment_mesh::policies_of(method).with_solver(RW::Star_mesh_elimination());
+    return levels_of(RW::hierarchy_via_random_walks(mesh(), policies, CGAL::parameters::callback(callback)),
+                     policies.stop);
+  }
+
+  /// Segments that are surfaces.
+  Levels surface_levels(const Progress_callback& callback) const {
+    const RW_segmentation::Surface_segmentation numbers;
+    return levels_of(RW_segmentation::hierarchy_of_surfaces(mesh(), numbers, CGAL::parameters::callback(callback)),
+                     [&](const RW_segmentation::Merge_tree& tree) { return numbers.stop(tree); });
   }
 
   /// The smooth boundaries between segments.
@@ -173,6 +170,24 @@ class Session {
   using Walk = RW_segmentation::Random_walk<Mesh>;
 
   const Mesh& mesh() const { return input_.mesh; }
+
+  /// \param stop the level that the shape suggests
+  Levels levels_of(const RW_segmentation::Segment_hierarchy<Mesh>& hierarchy,
+                   const RW_segmentation::Any_stop& stop) const {
+    Levels levels;
+    levels.fragments = hierarchy.number_of_fragments();
+    levels.components = hierarchy.number_of_components();
+    levels.suggested = stop(hierarchy);
+    levels.fragment_of_face.resize(mesh().number_of_faces());
+    hierarchy.segments(RW_segmentation::Segment_count_stop(levels.fragments),
+                       face_map(mesh(), levels.fragment_of_face));
+    for (const auto& merge : hierarchy.merges()) {
+      for (const std::size_t region : {merge.first, merge.second})
+        levels.merged_regions.push_back(static_cast<std::uint32_t>(region));
+      levels.costs.push_back(merge.cost);
+    }
+    return levels;
+  }
 
   Walk& walk() {
     if (!walk_) throw std::logic_error("the walk has not been prepared");

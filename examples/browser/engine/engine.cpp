@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The library as a WebAssembly module for a page: its `Session` with arrays in place of vectors.
 //
 // Every call returns its value, or an object with the property `error` where the library throws.
@@ -47,6 +49,19 @@ val done(const Call& call) {
   });
 }
 
+/// The usual numbers, with the choices of the page.
+segment_mesh::Method method_of(const val& way) {
+  using namespace segment_mesh;
+  const auto name = [&](const char* property) { return way[property].as<std::string>(); };
+  Method method;
+  method.difference = choice_of(difference_names, name("difference"));
+  method.seeding = choice_of(seeding_names, name("seeding"));
+  method.merge_cost = choice_of(merge_cost_names, name("mergeCost"));
+  method.angles = angles_of(method.difference);
+  take_numbers(RW_segmentation::Automatic_segmentation(), method);
+  return method;
+}
+
 class Engine {
  public:
   explicit Engine(const mesh_files::Polygon_soup& soup) : session_(soup) {}
@@ -89,12 +104,13 @@ class Engine {
     return answer([&] { return array_of(session_.probabilities(label)); });
   }
 
-  val hierarchy(const std::string& mode, val progress) {
+  /// \param way an `AutomaticMethod` of the page
+  val hierarchy(val way, val progress) {
     return answer([&] {
       const auto callback = [&](double fraction) { return progress(fraction).as<bool>(); };
-      const browser_engine::Levels levels = mode == "engineering"
-                                                ? session_.levels(RW_segmentation::Engineering_segmentation(), callback)
-                                                : session_.levels(RW_segmentation::Automatic_segmentation(), callback);
+      const browser_engine::Levels levels = way["kind"].as<std::string>() == "engineering"
+                                                ? session_.surface_levels(callback)
+                                                : session_.levels(method_of(way), callback);
       val result = val::object();
       result.set("fragmentOfFace", array_of(levels.fragment_of_face));
       result.set("merges", array_of(levels.merged_regions));

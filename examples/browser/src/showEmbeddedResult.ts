@@ -1,6 +1,7 @@
 import { readEmbeddedResult, type EmbeddedResult } from './files/embeddedResult';
 import { withNewLabel, type Annotation } from './model/labels';
 import type { Session } from './model/Session';
+import { defaultPolicies } from './worker/calls';
 
 /**
  * Shows the result that `segment_mesh --html` has put into the page.
@@ -28,8 +29,9 @@ function show(session: Session, result: EmbeddedResult): void {
     session.mode.value = 'seeds';
   } else {
     session.givenLabels.value = result.segmentOfFace;
+    const method = { kind: result.mode, ...defaultPolicies, ...result.policies };
     session.automatic.kind.value = result.mode;
-    if (result.hierarchy) session.automatic.take(result.mode, { hierarchy: result.hierarchy, parts: result.segments });
+    if (result.hierarchy) session.automatic.take(method, { hierarchy: result.hierarchy, parts: result.segments });
     session.mode.value = 'automatic';
   }
 }

@@ -1,4 +1,4 @@
-import type { Hierarchy, HierarchyKind } from '../worker/EngineModule';
+import type { Hierarchy, HierarchyKind, Policies } from '../worker/EngineModule';
 
 /** A result that `segment_mesh --html` has put into the page. */
 export interface EmbeddedResult {
@@ -9,6 +9,8 @@ export interface EmbeddedResult {
   hierarchy: Hierarchy | null;
   segments: number;
   mode: 'seeds' | HierarchyKind;
+  /** What a natural shape was segmented by. */
+  policies?: Policies | null;
   seeds: { face: number; label: number }[];
 }
 

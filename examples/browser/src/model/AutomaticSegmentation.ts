@@ -1,6 +1,7 @@
 import { batch, computed, signal } from '@preact/signals-core';
+import { defaultPolicies } from '../worker/calls';
 import { Cancelled, type EngineClient } from '../worker/EngineClient';
-import type { Hierarchy, HierarchyKind } from '../worker/EngineModule';
+import type { AutomaticMethod, Hierarchy, HierarchyKind, Policies } from '../worker/EngineModule';
 import { segmentsAtLevel } from './mergeTree';
 
 /** A hierarchy, and the number of parts that is looked at. */
@@ -11,14 +12,21 @@ interface Level {
   milliseconds?: number;
 }
 
-/** Segments without seeds. The walk makes a hierarchy once; all numbers of parts are read off it. */
+/** The same for methods that give the same hierarchy. */
+function nameOf({ kind, difference, seeding, mergeCost }: AutomaticMethod): string {
+  return kind === 'engineering' ? kind : [kind, difference, seeding, mergeCost].join(' ');
+}
+
+/** Segments without seeds. The walk makes a hierarchy once for each method; all numbers of parts are read off it. */
 export class AutomaticSegmentation {
   readonly kind = signal<HierarchyKind>('graphical');
+  readonly policies = signal<Policies>(defaultPolicies);
+  private readonly method = computed<AutomaticMethod>(() => ({ kind: this.kind.value, ...this.policies.value }));
   /** The part done of a running computation. */
   readonly progress = signal<number | null>(null);
-  private readonly levels = signal<Partial<Record<HierarchyKind, Level>>>({});
+  private readonly levels = signal<Partial<Record<string, Level>>>({});
 
-  readonly level = computed(() => this.levels.value[this.kind.value] ?? null);
+  readonly level = computed(() => this.levels.value[nameOf(this.method.value)] ?? null);
   readonly segmentOfFace = computed(() =>
     this.level.value ? segmentsAtLevel(this.level.value.hierarchy, this.level.value.parts) : null,
   );
@@ -37,22 +45,27 @@ export class AutomaticSegmentation {
   }
 
   /** Takes a hierarchy from elsewhere. */
-  take(kind: HierarchyKind, level: Level): void {
+  take({ kind, ...policies }: AutomaticMethod, level: Level): void {
     batch(() => {
       this.kind.value = kind;
-      this.levels.value = { ...this.levels.peek(), [kind]: level };
+      this.policies.value = policies;
+      this.levels.value = { ...this.levels.peek(), [nameOf({ kind, ...policies })]: level };
     });
+  }
+
+  setPolicies(policies: Partial<Policies>): void {
+    this.policies.value = { ...this.policies.peek(), ...policies };
   }
 
   async compute(): Promise<void> {
     if (this.progress.peek() !== null) return;
-    const kind = this.kind.peek();
+    const method = this.method.peek();
     const mesh = this.meshes;
     this.progress.value = 0;
     try {
-      const hierarchy = await this.engine.hierarchy(kind, (fraction) => (this.progress.value = fraction));
+      const hierarchy = await this.engine.hierarchy(method, (fraction) => (this.progress.value = fraction));
       if (mesh === this.meshes) {
-        this.take(kind, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
+        this.take(method, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
       }
     } catch (error) {
       if (!(error instanceof Cancelled)) this.report(error);
@@ -67,6 +80,6 @@ export class AutomaticSegmentation {
 
   setParts(parts: number): void {
     const level = this.level.peek();
-    if (level) this.take(this.kind.peek(), { ...level, parts });
+    if (level) this.take(this.method.peek(), { ...level, parts });
   }
 }

@@ -1,6 +1,7 @@
 import { effect } from '@preact/signals-core';
+import type { AutomaticSegmentation } from '../model/AutomaticSegmentation';
 import type { Session } from '../model/Session';
-import type { HierarchyKind } from '../worker/EngineModule';
+import type { HierarchyKind, Policies } from '../worker/EngineModule';
 import { byId, onClick, onSlide } from './dom';
 
 const remarks: Record<HierarchyKind, string> = {
@@ -18,7 +19,9 @@ export function automaticPanel({ automatic, mesh }: Session): void {
   effect(() => {
     for (const kind of kinds) kind.checked = kind.value === automatic.kind.value;
     byId('kind-remark').textContent = remarks[automatic.kind.value];
+    byId('policies').hidden = automatic.kind.value === 'engineering';
   });
+  policies(automatic);
 
   const compute = byId<HTMLButtonElement>('compute');
   compute.addEventListener('click', () => void automatic.compute());
@@ -47,6 +50,20 @@ export function automaticPanel({ automatic, mesh }: Session): void {
     byId('level-remark').textContent =
       `The shape suggests ${suggested}. ` +
       (level.milliseconds === undefined ? '' : `Found in ${seconds(level.milliseconds)}.`);
+  });
+}
+
+/** A list for each policy, whose options have the names that the engine knows. */
+function policies(automatic: AutomaticSegmentation): void {
+  const lists: [keyof Policies, HTMLSelectElement][] = [
+    ['difference', byId<HTMLSelectElement>('difference')],
+    ['seeding', byId<HTMLSelectElement>('seeding')],
+    ['mergeCost', byId<HTMLSelectElement>('merge-cost')],
+  ];
+  for (const [policy, list] of lists)
+    list.addEventListener('change', () => automatic.setPolicies({ [policy]: list.value } as Partial<Policies>));
+  effect(() => {
+    for (const [policy, list] of lists) list.value = automatic.policies.value[policy];
   });
 }
 

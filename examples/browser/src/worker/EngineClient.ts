@@ -1,6 +1,6 @@
 import EngineWorker from './worker?worker&inline';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { Curves, HierarchyKind } from './EngineModule';
+import type { AutomaticMethod, Curves } from './EngineModule';
 
 /** A computation that the user has ended. */
 export class Cancelled extends Error {
@@ -64,8 +64,8 @@ export class EngineClient {
     return this.callOnMesh('probabilities', values);
   }
 
-  hierarchy(kind: HierarchyKind, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
-    return this.callOnMesh('hierarchy', [kind], onProgress);
+  hierarchy(method: AutomaticMethod, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
+    return this.callOnMesh('hierarchy', [method], onProgress);
   }
 
   smoothBoundaries(labels: Uint32Array): Promise<Curves> {

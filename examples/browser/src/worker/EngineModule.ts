@@ -22,7 +22,7 @@ export interface Engine {
   /** The probability of a label for each face. */
   probabilities(label: number): Float32Array | Failure;
   /** @param progress told the part done, in [0, 1]; false cancels */
-  hierarchy(kind: HierarchyKind, progress: (fraction: number) => boolean): Hierarchy | Failure;
+  hierarchy(method: AutomaticMethod, progress: (fraction: number) => boolean): Hierarchy | Failure;
   smoothBoundaries(labels: Uint32Array): Curves | Failure;
   /** Frees the memory. */
   delete(): void;
@@ -45,6 +45,18 @@ export interface MeshData {
 }
 
 export type HierarchyKind = 'graphical' | 'engineering';
+
+/** How natural shapes are segmented, by the names of the options of the tool segment_mesh. */
+export interface Policies {
+  difference: 'concavity' | 'dihedral' | 'curvature';
+  seeding: 'farthest' | 'particles' | 'coarse';
+  mergeCost: 'size' | 'boundary';
+}
+
+/** What an automatic segmentation is made by. Machine parts heed no policies. */
+export interface AutomaticMethod extends Policies {
+  kind: HierarchyKind;
+}
 
 /** All levels of an automatic segmentation, from fragments to connected components. */
 export interface Hierarchy {

@@ -1,5 +1,5 @@
 import type { Seeds } from '../model/seeds';
-import type { Curves, Hierarchy, HierarchyKind, MeshData } from './EngineModule';
+import type { AutomaticMethod, Curves, Hierarchy, MeshData, Policies } from './EngineModule';
 
 /** Where a mesh comes from. */
 export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: string };
@@ -12,6 +12,9 @@ export interface WalkParameters {
 
 /** Those of the tool segment_mesh, which agree best with people. */
 export const defaultParameters: WalkParameters = { convexWeight: 0.02, sigma: 1 };
+
+/** Likewise, without seeds. */
+export const defaultPolicies: Policies = { difference: 'concavity', seeding: 'farthest', mergeCost: 'size' };
 
 export interface LoadedMesh extends MeshData {
   /** Pairs of faces that share an edge. */
@@ -34,7 +37,7 @@ export interface Calls {
   segment(seeds: Seeds): Uint32Array | null;
   /** The probability of a label for each face. */
   probabilities(seeds: Seeds, label: number): Float32Array;
-  hierarchy(kind: HierarchyKind): TimedHierarchy;
+  hierarchy(method: AutomaticMethod): TimedHierarchy;
   smoothBoundaries(labels: Uint32Array): Curves;
 }
 

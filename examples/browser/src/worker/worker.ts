@@ -2,7 +2,7 @@ import createEngine from 'engine';
 import { seedEdit, type Seeds } from '../model/seeds';
 import { adjacentFaces } from './adjacentFaces';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { Engine, Failure, HierarchyKind } from './EngineModule';
+import type { AutomaticMethod, Engine, Failure } from './EngineModule';
 
 const moduleIsReady = createEngine();
 let engine: Engine | undefined;
@@ -63,11 +63,11 @@ function setSeeds(seeds: Seeds): void {
   }
 }
 
-function hierarchy(kind: HierarchyKind, tell: (progress: number) => void): TimedHierarchy {
+function hierarchy(method: AutomaticMethod, tell: (progress: number) => void): TimedHierarchy {
   let told = 0;
   const start = performance.now();
   const hierarchy = value(
-    loaded().hierarchy(kind, (progress) => {
+    loaded().hierarchy(method, (progress) => {
       if (progress >= told + 0.01) tell((told = progress));
       return true;
     }),
@@ -90,7 +90,7 @@ function calls(tell: (progress: number) => void) {
       setSeeds(seeds);
       return value(loaded().probabilities(label));
     },
-    hierarchy: (kind) => hierarchy(kind, tell),
+    hierarchy: (method) => hierarchy(method, tell),
     smoothBoundaries: (labels) => value(loaded().smoothBoundaries(labels)),
   } satisfies { [Name in keyof Calls]: (...values: Parameters<Calls[Name]>) => unknown };
 }

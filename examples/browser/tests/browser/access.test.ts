@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import type { AddressInfo } from 'node:net';
 import { pathToFileURL } from 'node:url';
 import { cube, offFile } from '../meshes';
+import { defaultPolicies } from '../../src/worker/calls';
 import { answer, engineWith, expect, pageFile, test } from './fixture';
 
 test('a mesh can be segmented with the keyboard alone', async ({ segmentation }) => {
@@ -42,6 +43,7 @@ test('every control has a name', async ({ segmentation }) => {
   await segmentation.openMesh('cube.off', cube(4));
   for (const tab of ['seeds', 'automatic']) {
     await page.click(`#tab-${tab}`);
+    for (const summary of await page.locator('summary').all()) if (await summary.isVisible()) await summary.click();
     const controls = await page.locator('button, select, input:not([hidden]), canvas').all();
     for (const control of controls) if (await control.isVisible()) await expect(control).toHaveAccessibleName(/\S/);
   }
@@ -138,8 +140,11 @@ test.describe('on a phone', () => {
 test('a result that was put into the page is shown when it is opened from disk', async ({ segmentation }, testInfo) => {
   const mesh = cube(6);
   const off = offFile(mesh.points, mesh.faces);
-  const hierarchy = answer((await engineWith('cube.off', off)).hierarchy('engineering', () => true));
-  const labels = Uint32Array.from(mesh.faces, (_, face) => Math.floor(face / 36));
+  const hierarchy = answer(
+    (await engineWith('cube.off', off)).hierarchy({ kind: 'engineering', ...defaultPolicies }, () => true),
+  );
+  expect(hierarchy.fragments).toBe(6);
+  const labels = Uint32Array.from(hierarchy.fragmentOfFace);
   const base64 = (array: Uint32Array | Float64Array) => Buffer.from(array.buffer).toString('base64');
   const { fragments, fewest, suggested } = hierarchy;
   const result = {
@@ -156,6 +161,7 @@ test('a result that was put into the page is shown when it is opened from disk',
     },
     segments: 6,
     mode: 'engineering',
+    policies: null,
     seeds: [],
   };
   const begin = '<script type="application/json" id="embedded-result">';

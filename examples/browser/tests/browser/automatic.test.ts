@@ -1,4 +1,5 @@
 import { bumpySphere, cube, offFile } from '../meshes';
+import { defaultPolicies } from '../../src/worker/calls';
 import { answer, engineWith, expect, test } from './fixture';
 
 test('the slider gives as many parts as it says, and the walk runs once', async ({ segmentation }) => {
@@ -29,7 +30,9 @@ test('the parts are those that the engine finds', async ({ segmentation }) => {
   await page.click('#compute');
   await expect(page.locator('#parts')).toBeVisible();
   const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
-  const { fragmentOfFace, fragments, suggested } = answer(engine.hierarchy('graphical', () => true));
+  const { fragmentOfFace, fragments, suggested } = answer(
+    engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true),
+  );
   expect(new Set(await segmentation.labels()).size).toBe(suggested);
   if (fragments <= 200) {
     await page.locator('#parts').fill(String(fragments));
@@ -50,6 +53,34 @@ test('machine parts have a hierarchy of their own', async ({ segmentation }) => 
   for (let side = 0; side < 6; ++side) expect(new Set(labels.slice(side * 144, side * 144 + 144)).size).toBe(1);
   await page.getByText('Natural shape').click();
   await expect(page.locator('#compute')).toBeVisible();
+});
+
+test('each choice of policies has a hierarchy of its own, which is kept', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(24);
+  await segmentation.openMesh('bumps.off', mesh);
+  await page.click('#tab-automatic');
+  await page.getByText('How parts are found').click();
+  await segmentation.screenshot('policies');
+  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+  let policies = { ...defaultPolicies };
+  for (const [label, choice] of [
+    ['Faces differ by', { difference: 'curvature' }],
+    ['Seeds lie', { seeding: 'coarse' }],
+    ['Merged first are', { mergeCost: 'boundary' }],
+  ] as const) {
+    policies = { ...policies, ...choice };
+    await page.getByLabel(label).selectOption(Object.values(choice)[0]);
+    await page.click('#compute');
+    await expect(page.locator('#parts')).toBeVisible();
+    const { suggested } = answer(engine.hierarchy({ kind: 'graphical', ...policies }, () => true));
+    expect(new Set(await segmentation.labels()).size).toBe(suggested);
+  }
+  await page.getByLabel('Merged first are').selectOption('size');
+  await expect(page.locator('#parts')).toBeVisible();
+  expect((await segmentation.engineCalls()).hierarchy).toBe(3);
+  await page.getByText('Machine part').click();
+  await expect(page.getByText('How parts are found')).toBeHidden();
 });
 
 test('a computation can be cancelled, and the page goes on as before', async ({ segmentation }) => {

@@ -3,7 +3,8 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import type { Engine, MeshData } from '../../src/worker/EngineModule';
+import { defaultPolicies } from '../../src/worker/calls';
+import type { AutomaticMethod, Engine, MeshData } from '../../src/worker/EngineModule';
 import { answer, engineModule, expect, pageFile, test } from '../browser/fixture';
 import { segmentsAtLevel } from '../../src/model/mergeTree';
 
@@ -59,14 +60,18 @@ for (const model of ['hand', 'quadruped', 'turned shaft'])
     expect([...answer(engine.segment())]).toEqual(labelsIn('labels.seg'));
   });
 
-for (const [model, kind, options] of [
-  ['hand', 'graphical', []],
-  ['quadruped', 'graphical', []],
-  ['turned shaft', 'engineering', ['--engineering']],
-] as const)
-  test(`${model} has the ${kind} parts that it has natively`, async () => {
+for (const [model, choices, options] of [
+  ['hand', { kind: 'graphical' }, []],
+  ['quadruped', { kind: 'graphical' }, []],
+  ['hand', { difference: 'dihedral', seeding: 'particles' }, ['--difference', 'dihedral', '--seeding', 'particles']],
+  ['hand', { difference: 'curvature' }, ['--difference', 'curvature']],
+  ['quadruped', { seeding: 'coarse', mergeCost: 'boundary' }, ['--seeding', 'coarse', '--merge-cost', 'boundary']],
+  ['turned shaft', { kind: 'engineering' }, ['--engineering']],
+] as [string, Partial<AutomaticMethod>, string[]][])
+  test(`${model} has the parts that it has natively: ${Object.values(choices).join(', ')}`, async () => {
     const { engine } = await engineWithModel(model);
-    const hierarchy = answer(engine.hierarchy(kind, () => true));
+    const method: AutomaticMethod = { kind: 'graphical', ...defaultPolicies, ...choices };
+    const hierarchy = answer(engine.hierarchy(method, () => true));
     segmentNatively(...options, '--labels', 'labels.seg');
     expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
   });
