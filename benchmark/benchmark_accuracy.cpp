@@ -6,6 +6,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -36,10 +37,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The dual of a data mesh with its conductances.
 Network mesh_network(const std::string& name, double cap) {
   const measurement::Mesh mesh = measurement::read_mesh(measurement::data_mesh(name));
-  const Mesh_dual_graph<measurement::Mesh> graph(mesh);
-  const Conductance<measurement::Mesh> conductance(mesh, Dihedral_difference<measurement::Mesh>(mesh), 1, cap);
-  Network network{graph, {}};
-  for (const auto e : graph.edge_descriptors()) network.conductances.push_back(get(conductance, e));
+  const Dual_mesh_of dual(mesh);
+  const Conductance conductance(dual, Dihedral_difference(dual), 1, cap);
+  Network network{dual.graph(), {}};
+  for (const auto e : dual.edge_descriptors()) network.conductances.push_back(get(conductance, e));
   return network;
 }
 

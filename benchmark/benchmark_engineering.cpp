@@ -5,7 +5,7 @@
 #include "measurement.h"
 #include "segmentation_measures.h"
 
-#include <RW_segmentation/Engineering_segmentation.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
@@ -161,10 +161,7 @@ void by_shape_diameter(const Mesh& mesh, Label_map labels) {
 
 const std::vector<std::pair<std::string, Method>>& methods() {
   static const std::vector<std::pair<std::string, Method>> all = {
-      {"engineering",
-       [](const Mesh& mesh, Label_map labels) {
-         segmentation_via_random_walks(mesh, labels, Engineering_segmentation());
-       }},
+      {"engineering", [](const Mesh& mesh, Label_map labels) { segmentation_into_surfaces(mesh, labels); }},
       {"sharp_edges", by_sharp_edges},
       {"planes", by_planes},
       {"sdf", by_shape_diameter},

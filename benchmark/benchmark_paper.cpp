@@ -4,8 +4,7 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Random_walk.h>
-#include <RW_segmentation/internal/Face_geometry.h>
-#include <RW_segmentation/internal/Graph_walk.h>
+#include <RW_segmentation/internal/walk/Graph_walk.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -136,24 +135,23 @@ std::vector<Index> innermost_faces(const Dual_graph& graph, const std::vector<do
 /// The mean share of faces that keep their label when every seed moves at random within a distance and its segment.
 void stability(const Model& model, std::size_t trials, std::vector<Result>& results) {
   const Mesh mesh = measurement::read_mesh(measurement::data_mesh(model.file));
-  const RW_segmentation::Mesh_dual_graph<Mesh> graph(mesh);
-  const auto geometry =  // in a unit in which the diagonal of the bounding box is 1
-      RW_segmentation::internal::face_geometry(mesh, graph, CGAL::parameters::default_values());
+  const RW_segmentation::Dual_mesh_of<Mesh> dual(mesh);
+  const RW_segmentation::Dual_graph& graph = dual.graph();
   const double convex_weight = model.is_engineering ? 1 : 0.2;
-  const RW_segmentation::Conductance<Mesh> conductance(mesh,
-                                                       RW_segmentation::Dihedral_difference<Mesh>(mesh, convex_weight));
+  const RW_segmentation::Conductance conductance(dual, RW_segmentation::Dihedral_difference(dual, convex_weight));
   std::vector<double> conductances, length;
   for (Index e = 0; e < graph.number_of_edges(); ++e) {
     const auto [f, g] = graph.faces_of(e);
-    conductances.push_back(get(conductance, graph.edge(e)));
-    length.push_back((geometry.centroid[f] - geometry.centroid[g]).norm());
+    conductances.push_back(get(conductance, dual.edge(e)));
+    length.push_back((dual.centroid(f) - dual.centroid(g)).norm());
   }
 
   RW_segmentation::Automatic_segmentation policy(model.segments);
-  if (model.is_engineering) policy.convex_weight = 1;
-  std::vector<std::size_t> segment(graph.number_of_faces());
-  RW_segmentation::segmentation_via_random_walks(
-      mesh, boost::make_iterator_property_map(segment.begin(), get(boost::face_index, mesh)), policy);
+  if (model.is_engineering) policy.difference.convex_weight = 1;
+  std::vector<std::size_t> segment_of_face(mesh.number_of_faces());
+  const auto segment_map = boost::make_iterator_property_map(segment_of_face.begin(), get(boost::face_index, mesh));
+  RW_segmentation::segmentation_via_random_walks(dual, segment_map, policy);
+  const std::vector<std::size_t> segment = dual.read_segments(segment_map);
   const std::vector<Index> seeds = innermost_faces(graph, length, segment, model.segments);
   RW_segmentation::internal::Graph_walk<> walk(graph, conductances);
   const auto labels_from = [&](const std::vector<Index>& from) -> const std::vector<std::size_t>& {

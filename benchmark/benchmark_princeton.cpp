@@ -14,6 +14,7 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/coarse_seeds.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>

@@ -57,7 +57,7 @@ Times edit(const Mesh& mesh, const Conductances& conductances, Labels labels, La
            const Arguments& arguments) {
   Times times;
   const auto faces = random_faces(mesh, arguments.seeds + arguments.edits + 1);
-  Random_walk walk(mesh, conductances);
+  Random_walk walk(mesh, as_conductance(conductances));
   for (std::size_t s = 0; s < arguments.seeds; ++s) walk.add_seed(faces[s], s);
   walk.segment(labels);
 
@@ -85,7 +85,7 @@ Times edit(const Mesh& mesh, const Conductances& conductances, Labels labels, La
 
   for (int repeat = 0; repeat < 3; ++repeat) {
     const Stopwatch watch;
-    Random_walk fresh(mesh, conductances);
+    Random_walk fresh(mesh, as_conductance(conductances));
     for (const auto& [face, label] : walk.seeds()) fresh.add_seed(face, label);
     fresh.segment(redone);
     times.redo.push_back(watch.milliseconds());

@@ -111,7 +111,7 @@ std::vector<double> run(const Mesh& mesh, const Conductances& conductances, cons
   while (total.size() < repeats && (total.empty() || total.front() < long_run)) {
     Stages stages;
     const Stopwatch watch;
-    Random_walk walk(mesh, conductances, Timed_solver<Solver>(make_solver(stages), stages));
+    Random_walk walk(mesh, as_conductance(conductances), Timed_solver<Solver>(make_solver(stages), stages));
     for (std::size_t s = 0; s < seeds.size(); ++s) walk.add_seed(seeds[s], s);
     walk.segment(labels);
     total.push_back(watch.milliseconds());

@@ -83,6 +83,14 @@ inline Turning turning(const Mesh& mesh, const std::vector<bool>& is_boundary) {
   return result;
 }
 
+/// The value that a share of the values lies below; 0 if there are none.
+inline double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
 /// Points spread over segments, each for an equal part of the length.
 inline std::vector<Mesh::Point> points_on(const Segments& segments, double spacing) {
   std::vector<Mesh::Point> points;
@@ -127,19 +135,21 @@ inline double diagonal(const Mesh& mesh) {
   return std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
 }
 
-/// The smallest angle of the faces from a number on, in degrees.
-inline double smallest_angle(const Mesh& mesh, std::size_t first_face) {
-  double least = 180;
+/// The smallest angle of each face from a number on, in degrees.
+inline std::vector<double> smallest_angles(const Mesh& mesh, std::size_t first_face) {
+  std::vector<double> angles;
   for (const auto f : mesh.faces()) {
     if (static_cast<std::size_t>(f) < first_face) continue;
+    double least = 180;
     for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh)) {
       const auto& p = mesh.point(mesh.target(h));
       least =
           std::min(least, 180 / CGAL_PI *
                               angle_between(mesh.point(mesh.source(h)) - p, mesh.point(mesh.target(mesh.next(h))) - p));
     }
+    angles.push_back(least);
   }
-  return least;
+  return angles;
 }
 
 }  // namespace measurement
