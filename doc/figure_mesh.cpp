@@ -10,9 +10,9 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Curvature_difference.h>
 #include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Engineering_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/coarse_seeds.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/smoothed_face_normals.h>
@@ -60,7 +60,7 @@ Point centroid(const Mesh& mesh, Face f) {
 /// The numbers that can be changed, with the library's defaults. `increase` has none.
 struct Numbers {
   RW::Automatic_segmentation automatic;
-  RW::Engineering_segmentation engineering;
+  RW::Surface_segmentation engineering;
   RW::Boundary_smoothing boundary;
   double increase = 0, threshold = 0.4, decrease = 0.6, radius = 3;
 };
@@ -87,7 +87,9 @@ void automatically(Mesh& mesh, const Numbers& numbers, Color_map colors) {
 }
 
 void part_of_machine(Mesh& mesh, const Numbers& numbers, Color_map colors) {
-  paint_segmentation(mesh, numbers.engineering, colors);
+  const Segment_map segments = new_segments(mesh);
+  RW::segmentation_into_surfaces(mesh, segments, numbers.engineering);
+  paint_segments(mesh, segments, colors);
 }
 
 /// By walks over clusters, which meshes of this size do not need.
@@ -156,13 +158,14 @@ std::size_t whole(double value) { return static_cast<std::size_t>(std::llround(v
 
 const std::map<std::string, Parameter>& parameters() {
   static const std::map<std::string, Parameter> all = {
-      {"stop_cost", {[](Numbers& n, double x) { n.automatic.stop_cost = x; }, automatically}},
-      {"ordinary_difference", {[](Numbers& n, double x) { n.automatic.ordinary_difference = x; }, automatically}},
+      {"stop_cost", {[](Numbers& n, double x) { n.automatic.stop = RW::Cost_threshold_stop(x); }, automatically}},
+      {"ordinary_difference",
+       {[](Numbers& n, double x) { n.automatic.difference.ordinary_difference = x; }, automatically}},
       {"normal_weight",
-       {[](Numbers& n, double x) { n.automatic.sampling = RW::Farthest_point_sampling(x); }, automatically}},
-      {"samples", {[](Numbers& n, double x) { n.automatic.thickness.samples = whole(x); }, automatically}},
-      {"rays", {[](Numbers& n, double x) { n.automatic.thickness.rays = whole(x); }, automatically}},
-      {"cone_angle", {[](Numbers& n, double x) { n.automatic.thickness.cone_angle = x; }, automatically}},
+       {[](Numbers& n, double x) { n.automatic.seeding.sampling = RW::Farthest_point_sampling(x); }, automatically}},
+      {"samples", {[](Numbers& n, double x) { n.automatic.merge_cost.thickness.samples = whole(x); }, automatically}},
+      {"rays", {[](Numbers& n, double x) { n.automatic.merge_cost.thickness.rays = whole(x); }, automatically}},
+      {"cone_angle", {[](Numbers& n, double x) { n.automatic.merge_cost.thickness.cone_angle = x; }, automatically}},
       {"noise_angle", {[](Numbers& n, double x) { n.automatic.smoothing.noise_angle = x; }, automatically}},
       {"largest_widening", {[](Numbers& n, double x) { n.automatic.smoothing.largest_widening = x; }, automatically}},
       {"heavy_noise", {[](Numbers& n, double x) { n.automatic.smoothing.heavy_noise = x; }, automatically}},

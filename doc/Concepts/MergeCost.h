@@ -1,18 +1,27 @@
 /// \cgalConcept MergeCost
 ///
-/// What it costs to make one segment of two neighbours; `merge_segments()` merges the cheapest pair first.
+/// What it costs to make one segment of two neighbours; the cheapest pair is merged first.
 ///
-/// All functions are const and do not depend on the order of their arguments. Costs are never NaN; they need not rise
-/// when regions grow.
+/// A merge cost is copyable. All functions are const and do not depend on the order of their arguments. Costs are never NaN,
+/// which is refused by an exception; they need not rise when regions grow, and infinite ones are merged last.
 ///
-/// \cgalModels `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10).
+/// In `Segmentation_policies` a *function object* from the dual mesh of the smoothed shape to a merge cost may take its
+/// place, for costs that compute something of the whole mesh first.
+///
+/// \cgalHasModels
+/// - `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10),
+///   `RW_segmentation::Analytic_surface_cost`
+/// - Function objects: `RW_segmentation::Size_aware_cost_policy`
+/// - A user's own: `Smallest_area_cost` in `examples/own_policies.cpp`
 class MergeCost {
  public:
   /// What the cost must know of a region: areas, thickness, curvature moments. Default-constructible and copyable.
   struct Region;
 
   /// The region of a single face.
-  Region region(face_descriptor face) const;
+  /// \param mesh a `Dual_mesh_of`, for costs that ask for descriptors; it converts to `const Dual_mesh&`
+  /// \param face the number of the face
+  Region region(const Dual_mesh& mesh, Dual_mesh::Index face) const;
 
   /// Makes `region` the union of both.
   void join(Region& region, const Region& other) const;

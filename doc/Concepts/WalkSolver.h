@@ -3,11 +3,18 @@
 /// Solves the Dirichlet problem of a random walk on a `Dual_graph`: the potentials of all faces when some, the absorbing
 /// ones, are held at given values and current is conserved at all others.
 ///
-/// A solver is default-constructible and movable. Its functions are called in the order below; each may be called
-/// again with other arguments. A solver that fails, or cannot promise its accuracy, throws `std::runtime_error` with the
-/// reason; it never returns a wrong answer. A face from which no absorbing face can be reached has the potential 0.
+/// A solver is movable. `Segmentation_policies` copy it, and a copy has analysed nothing; where it cannot be copied, or needs
+/// settings of its own, a *function object* without arguments that returns a solver takes its place. It is
+/// default-constructible where `Random_walk` is given none.
 ///
-/// \cgalModels `RW_segmentation::Star_mesh_elimination`, `RW_segmentation::Eigen_walk_solver`.
+/// The functions are called in the order below; each may be called again with other arguments. A solver that fails, or
+/// cannot promise its accuracy, throws `std::runtime_error` with the reason; it never returns a wrong answer. A face from
+/// which no absorbing face can be reached has the potential 0.
+///
+/// \cgalHasModels
+/// - `RW_segmentation::Star_mesh_elimination`
+/// - `RW_segmentation::Eigen_walk_solver` over any of Eigen's sparse solvers, its own or those that it wraps
+/// - A user's own: `Factorisation` in `examples/own_policies.cpp`, a function object
 class WalkSolver {
  public:
   /// Prepares for a graph: orderings and the like. The graph outlives the solver or the next `analyze`.
