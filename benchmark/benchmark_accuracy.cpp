@@ -96,7 +96,7 @@ struct Edits {
 constexpr double label_margin = 1e-8;
 
 /// Adds a seed, removes one or changes the label of one.
-void edit_at_random(internal::Graph_walk<Star_mesh_elimination>& walk, Index faces, std::mt19937& random) {
+void edit_at_random(internal::Graph_walk& walk, Index faces, std::mt19937& random) {
   constexpr std::size_t fewest_seeds = 3, most_seeds = 16, labels = 8;
   const auto action = random() % 5;
   const std::size_t seeds = walk.seeds().size();
@@ -109,7 +109,7 @@ void edit_at_random(internal::Graph_walk<Star_mesh_elimination>& walk, Index fac
 }
 
 /// Holds the potentials and labels of a walk against those of a factorisation with its seeds.
-void compare(internal::Graph_walk<Star_mesh_elimination>& walk, const Network& network, Edits& edits) {
+void compare(internal::Graph_walk& walk, const Network& network, Edits& edits) {
   std::vector<Index> faces;
   std::map<std::size_t, std::vector<Eigen::Index>> columns;
   for (const auto& seed : walk.seeds()) {
@@ -145,7 +145,7 @@ Edits random_edits(const Network& network, std::size_t number) {
   Edits edits;
   std::mt19937 random(2);
   const auto faces = static_cast<Index>(network.graph.number_of_faces());
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances);
   for (std::size_t l = 0; l < 6; ++l) walk.add_seed(static_cast<Index>(random() % faces), l);
   walk.labels();
   for (std::size_t edit = 0; edit < number; ++edit) {

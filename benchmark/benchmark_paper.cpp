@@ -153,7 +153,7 @@ void stability(const Model& model, std::size_t trials, std::vector<Result>& resu
   RW_segmentation::segmentation_via_random_walks(dual, segment_map, policy);
   const std::vector<std::size_t> segment = dual.read_segments(segment_map);
   const std::vector<Index> seeds = innermost_faces(graph, length, segment, model.segments);
-  RW_segmentation::internal::Graph_walk<> walk(graph, conductances);
+  RW_segmentation::internal::Graph_walk walk(graph, conductances);
   const auto labels_from = [&](const std::vector<Index>& from) -> const std::vector<std::size_t>& {
     walk.clear_seeds();
     for (std::size_t l = 0; l < from.size(); ++l) walk.add_seed(from[l], l);

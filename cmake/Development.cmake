@@ -17,14 +17,19 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   target_compile_options(RW_segmentation_development INTERFACE -Wno-gnu-zero-variadic-macro-arguments)
 endif()
 
-# ccache, where it is installed. The settings let it work with precompiled headers.
+target_compile_options(RW_segmentation_compiled PRIVATE
+  $<TARGET_PROPERTY:RW_segmentation_development,INTERFACE_COMPILE_OPTIONS>)
+
+# ccache, where it is installed; in CI it would find nothing. The settings let it work with precompiled headers.
 find_program(CCACHE ccache)
 mark_as_advanced(CCACHE)
-if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CI})
   set(CMAKE_CXX_COMPILER_LAUNCHER
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     target_compile_options(RW_segmentation_development INTERFACE -fpch-preprocess)
+  else()
+    target_compile_options(RW_segmentation_development INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
   endif()
 endif()
 
@@ -54,9 +59,6 @@ if(NOT TARGET SuiteSparse::CHOLMOD)
       IMPORTED_LOCATION ${CHOLMOD_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR})
   endif()
 endif()
-
-find_package(TBB QUIET CONFIG)
-include(CGAL_TBB_support)
 
 use_optional_library(OPENMESH OpenMeshCore)
 use_optional_library(CHOLMOD SuiteSparse::CHOLMOD)

@@ -3,6 +3,8 @@
 #include "meshes.h"
 
 #include <RW_segmentation/integral_invariant_curvatures.h>
+#include <RW_segmentation/internal/curvature/Ball_neighbourhood.h>
+#include <RW_segmentation/internal/curvature/Triangulated_faces.h>
 
 #include <gtest/gtest.h>
 

@@ -286,7 +286,7 @@ TEST(RandomWalk, DependsOnRatiosOfConductancesOnly) {
   const auto potential_of = [&](int exponent) {
     std::vector<double> conductances = network.conductances;
     for (double& c : conductances) c = std::ldexp(c, exponent);
-    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, conductances);
+    internal::Graph_walk walk(network.graph, conductances);
     for (networks::Index l = 0; l < 3; ++l) walk.add_seed(60 * l, l);
     return walk.potential(1);
   };
@@ -302,7 +302,7 @@ TEST(RandomWalk, TellsOfItsProgressWhileManyLabelsAreSolved) {
     told.push_back(fraction);
     return true;
   }};
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances, {}, progress);
+  internal::Graph_walk walk(network.graph, network.conductances, {}, progress);
   for (networks::Index l = 0; l < 100; ++l) walk.add_seed(2 * l, l);
   walk.labels();
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
@@ -318,7 +318,7 @@ namespace {
 
 /// A graph walk under random edits is held against a fresh solve after each.
 void edit_at_random(const networks::Network& network, std::size_t edits, unsigned seed, double accepted,
-                    internal::Graph_walk<Star_mesh_elimination>& walk) {
+                    internal::Graph_walk& walk) {
   using networks::Index;
   std::mt19937 random(seed);
   const auto n = static_cast<Index>(network.graph.number_of_faces());
@@ -373,7 +373,7 @@ TEST(SeedEditing, EqualsAFreshFactorisationAfterEachOfAThousandRandomEdits) {
   std::mt19937 random(1);
   networks::Network network{networks::triangulated_torus(16), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 9, random);
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances);
   edit_at_random(network, 1000, 2, 1e-8, walk);
   EXPECT_GT(walk.report().columns_added, 300u);
   EXPECT_LT(walk.report().factorisations, 50u);
@@ -383,7 +383,7 @@ TEST(SeedEditing, StaysRightWithoutACap) {
   std::mt19937 random(3);
   networks::Network network{networks::triangulated_torus(12), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 200, random);
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances);
   edit_at_random(network, 300, 4, 1e-8, walk);
 }
 
@@ -422,7 +422,7 @@ TEST(SeedEditing, AnalysesTheMeshOnceHoweverOftenItFactorises) {
   std::mt19937 random(4);
   networks::Network network{networks::triangulated_torus(10), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
-  internal::Graph_walk<Counting_solver> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances, internal::Any_walk_solver(Counting_solver()));
   for (networks::Index shift = 0; shift < 3; ++shift) {
     walk.clear_seeds();
     for (networks::Index l = 0; l < 12; ++l) walk.add_seed(15 * l + shift, l);
@@ -436,7 +436,7 @@ TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
   std::mt19937 random(5);
   networks::Network network{networks::triangulated_torus(10), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances);
   for (networks::Index l = 0; l < 4; ++l) walk.add_seed(50 * l, l);
   const auto before = walk.labels();
   const auto potential = walk.potential(2);
@@ -458,7 +458,7 @@ TEST(SeedEditing, StaysRightWhenSeedsOfTheFactorComeBackAfterOthers) {
   std::mt19937 random(8);
   networks::Network network{networks::triangulated_torus(10), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
-  internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances);
   const std::vector<networks::Index> seeds = {30, 0, 50, 120};
   const auto add = [&](std::size_t l) {
     walk.add_seed(seeds[l], l);
@@ -533,8 +533,8 @@ TEST(SeedEditing, WorksWithEigensSolvers) {
   std::mt19937 random(6);
   networks::Network network{networks::triangulated_torus(12), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
-  internal::Graph_walk<Eigen_walk_solver<>> walk(network.graph, network.conductances);
-  internal::Graph_walk<Star_mesh_elimination> expected(network.graph, network.conductances);
+  internal::Graph_walk walk(network.graph, network.conductances, internal::Any_walk_solver(Eigen_walk_solver<>()));
+  internal::Graph_walk expected(network.graph, network.conductances);
   for (int edit = 0; edit < 30; ++edit) {
     if (edit % 3 == 2) {
       const auto face = walk.seeds()[random() % walk.seeds().size()].face;
@@ -558,7 +558,7 @@ TEST(Islands, GoToTheBestSupportedNeighbourAndAreCounted) {
     std::mt19937 random(seed);
     networks::Network network{networks::triangulated_torus(30), {}};
     network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
-    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+    internal::Graph_walk walk(network.graph, network.conductances);
     const auto seeds = networks::random_faces(network.graph, 8, random);
     for (std::size_t l = 0; l < seeds.size(); ++l) walk.add_seed(seeds[l], l);
     const auto raw = walk.raw_labels();
@@ -594,7 +594,7 @@ TEST(Islands, AreTheSameAfterEditsAsInAWalkMadeAnew) {
     networks::Network network{networks::triangulated_torus(20), {}};
     network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
     const auto faces = networks::random_faces(network.graph, 16, random);
-    internal::Graph_walk<Star_mesh_elimination> walk(network.graph, network.conductances);
+    internal::Graph_walk walk(network.graph, network.conductances);
     for (std::size_t l = 0; l < 8; ++l) walk.add_seed(faces[l], l);
     walk.labels();
     for (std::size_t l = 0; l < 8; ++l) {
@@ -602,7 +602,7 @@ TEST(Islands, AreTheSameAfterEditsAsInAWalkMadeAnew) {
         walk.add_seed(faces[8 + l], l);
       else
         walk.remove_seed(faces[l]);
-      internal::Graph_walk<Star_mesh_elimination> anew(network.graph, network.conductances);
+      internal::Graph_walk anew(network.graph, network.conductances);
       for (const auto& [face, label] : walk.seeds()) anew.add_seed(face, label);
       EXPECT_EQ(walk.labels(), anew.labels());
       EXPECT_EQ(walk.report().island_faces, anew.report().island_faces);

@@ -1,6 +1,8 @@
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/Walk_reduction.h>
+#include <RW_segmentation/internal/walk/settle_band.h>
+#include <RW_segmentation/internal/walk/walk_fragments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
 #include <boost/property_map/function_property_map.hpp>

@@ -298,7 +298,8 @@ TYPED_TEST(Walk_solver, CopiedIsAFreshSolver) {
   const std::vector<Index> seeds = {0, 40};
   TypeParam solver;
   const Potentials expected = networks::potentials(solver, network, seeds);
-  TypeParam copy = solver, made = internal::make_solver(solver);
+  TypeParam copy = solver;
+  internal::Any_walk_solver made = internal::make_solver(solver);
   EXPECT_THROW(copy.factorize(network.conductances, seeds), std::invalid_argument);
   EXPECT_EQ(networks::potentials(copy, network, seeds), expected);
   EXPECT_EQ(networks::potentials(made, network, seeds), expected);
@@ -327,15 +328,18 @@ TEST(EigenWalkSolver, CopiedPromisesTheSameAccuracy) {
 }
 
 TEST(MakeSolver, CallsAFunctionObjectForASolverThatHasSettings) {
-  using Conjugate_gradient = Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>;
-  const auto with_settings = [] {
-    Conjugate_gradient solver;
-    solver.eigen_solver().setMaxIterations(7);
-    return solver;
+  const Network network{triangulated_torus(7), std::vector<double>(3 * 49, 1.)};
+  const auto with_iterations = [](int most) {
+    return [most] {
+      Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>> solver;
+      solver.eigen_solver().setMaxIterations(most);
+      return solver;
+    };
   };
-  auto solver = internal::make_solver(with_settings);
-  static_assert(std::is_same_v<decltype(solver), Conjugate_gradient>);
-  EXPECT_EQ(solver.eigen_solver().maxIterations(), 7);
+  internal::Any_walk_solver hasty = internal::make_solver(with_iterations(1));
+  internal::Any_walk_solver patient = internal::make_solver(with_iterations(1000));
+  EXPECT_THROW(networks::potentials(hasty, network, {0, 40}), std::runtime_error);
+  EXPECT_NO_THROW(networks::potentials(patient, network, {0, 40}));
 }
 
 TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {

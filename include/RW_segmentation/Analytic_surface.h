@@ -6,17 +6,13 @@
 #include <RW_segmentation/Surface_samples.h>
 #include <RW_segmentation/internal/surfaces/Cone.h>
 #include <RW_segmentation/internal/surfaces/Cylinder.h>
-#include <RW_segmentation/internal/surfaces/Least_squares_surface.h>
 #include <RW_segmentation/internal/surfaces/Plane.h>
-#include <RW_segmentation/internal/surfaces/Scaled_samples.h>
 #include <RW_segmentation/internal/surfaces/Sphere.h>
 #include <RW_segmentation/internal/surfaces/Torus.h>
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -135,91 +131,9 @@ auto with_type_of(const Analytic_surface& surface, const Function& function) {
 
 }  // namespace internal
 
-inline double Analytic_surface::signed_distance(const Eigen::Vector3d& p) const {
-  return internal::with_type_of(*this, [&](const auto& surface) { return surface.distance(p); });
-}
-inline Eigen::Vector3d Analytic_surface::normal(const Eigen::Vector3d& p) const {
-  return internal::with_type_of(*this, [&](const auto& surface) -> Eigen::Vector3d { return surface.normal(p); });
-}
-
 /// The root mean square distance of points from a surface.
 /// \pre the surface is no free form
-inline double root_mean_square_distance(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points) {
-  if (points.empty()) return 0;
-  const double squares =
-      internal::with_type_of(surface, [&](const auto& s) { return internal::squared_distances(s, points); });
-  return std::sqrt(squares / static_cast<double>(points.size()));
-}
-
-namespace internal {
-
-template <class Type>
-Analytic_surface as_analytic_surface(const Least_squares_surface<Type>& fit, Surface_type type) {
-  Analytic_surface surface;
-  surface.type = type;
-  surface.point = fit.surface().point;
-  surface.direction = fit.surface().direction;
-  Type::numbers(surface) = Type::numbers(fit.surface());
-  surface.residual = fit.residual();
-  return surface;
-}
-
-/// Fits surfaces of each type to the same samples.
-class Surface_fit {
- public:
-  /// \param largest_residual that is of use; surfaces farther off may be given up early
-  explicit Surface_fit(const Surface_samples& samples,
-                       double largest_residual = std::numeric_limits<double>::infinity())
-      : samples_(samples), largest_residual_(largest_residual) {}
-
-  /// The surface of a type; nothing if its residual is too large.
-  std::optional<Analytic_surface> fit(Surface_type type) const {
-    if (type == Surface_type::free_form ||
-        samples_.points().size() < static_cast<std::size_t>(degrees_of_freedom(type)) || samples_.normals().empty() ||
-        !(samples_.spread() > 0))
-      return {};
-    return with_type(type, [&](auto tag) {
-      std::optional<Analytic_surface> closest;
-      for (const auto& guess : decltype(tag)::type::first_guesses(samples_)) {
-        const Least_squares_surface fit(guess, samples_.points(), largest_residual_);
-        const bool is_closer = closest ? fit.residual() < closest->residual : fit.residual() <= largest_residual_;
-        if (is_closer && fit.surface().is_sound(samples_)) closest = as_analytic_surface(fit, type);
-      }
-      return closest;
-    });
-  }
-
- private:
-  const Scaled_samples samples_;
-  const double largest_residual_;
-};
-
-/// A surface moved to where it is closest to other points, not far from those that it was fitted to.
-/// \pre the surface is no free form
-inline std::optional<Analytic_surface> fitted_again(const Analytic_surface& surface, const Surface_samples& samples) {
-  return with_type_of(surface, [&](const auto& from) {
-    if constexpr (std::decay_t<decltype(from)>::first_guess_is_closest)
-      return Surface_fit(samples).fit(surface.type);
-    else
-      return std::optional(as_analytic_surface(Least_squares_surface(from, samples.points), surface.type));
-  });
-}
-
-/// How far normals are off those of a surface, squared and summed.
-/// \pre the surface is no free form
-inline double squared_turns(const Analytic_surface& surface, const Surface_samples& samples) {
-  return with_type_of(surface, [&](const auto& s) {
-    double same = 0, opposite = 0;
-    for (std::size_t i = 0; i < samples.normals.size(); ++i) {
-      const Eigen::Vector3d n = s.normal(samples.normal_points[i]);
-      same += (samples.normals[i] - n).squaredNorm();
-      opposite += (samples.normals[i] + n).squaredNorm();
-    }
-    return std::min(same, opposite);
-  });
-}
-
-}  // namespace internal
+double root_mean_square_distance(const Analytic_surface& surface, const std::vector<Eigen::Vector3d>& points);
 
 /// The surface of a type that is closest to points, in the sense of least squares of the true distances.
 ///
@@ -234,11 +148,8 @@ inline double squared_turns(const Analytic_surface& surface, const Surface_sampl
 /// after a step or two
 /// \returns nothing if there are too few samples, they are too flat to tell the surface from a simpler one, or its
 /// residual is larger than that
-inline std::optional<Analytic_surface> fit_analytic_surface(
-    Surface_type type, const Surface_samples& samples,
-    double largest_residual = std::numeric_limits<double>::infinity()) {
-  return internal::Surface_fit(samples, largest_residual).fit(type);
-}
+std::optional<Analytic_surface> fit_analytic_surface(Surface_type type, const Surface_samples& samples,
+                                                     double largest_residual = std::numeric_limits<double>::infinity());
 
 /// The surface that explains points best: the number of degrees of freedom counts against closeness, each as much as
 /// log(n) squared deviations by the tolerance (the Bayesian information criterion of n points with Gaussian errors).
@@ -248,28 +159,12 @@ inline std::optional<Analytic_surface> fit_analytic_surface(
 /// \param samples see above
 /// \param tolerance the root mean square distance that points on a surface are expected to have; in units of the points
 /// \returns a free form if no surface lies within twice the tolerance, in the root mean square, of the points
-inline Analytic_surface fit_analytic_surface(const Surface_samples& samples, double tolerance) {
-  constexpr double turn_of_facets = 0.1;  // radians
-  const internal::Surface_fit fit(samples, 2 * tolerance);
-  const auto n = static_cast<double>(samples.points.size());
-  Analytic_surface best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Surface_type type : analytic_types) {
-    const double penalty = degrees_of_freedom(type) * std::log(std::max(n, 2.));
-    if (penalty >= least) break;
-    const auto surface = fit.fit(type);
-    if (!surface) continue;
-    const double distances = surface->residual / tolerance;
-    const double turns = internal::squared_turns(*surface, samples) / (turn_of_facets * turn_of_facets);
-    const double criterion = n * distances * distances + turns + penalty;
-    if (criterion < least) {
-      least = criterion;
-      best = *surface;
-    }
-  }
-  return best;
-}
+Analytic_surface fit_analytic_surface(const Surface_samples& samples, double tolerance);
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Analytic_surface.h>
+#endif
 
 #endif

@@ -10,7 +10,6 @@
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
-#include <RW_segmentation/internal/surfaces/noise_of_vertices.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -26,12 +25,7 @@ namespace RW_segmentation {
 namespace internal {
 
 /// The angle of each edge as a part of what makes it sharp.
-inline std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
-  std::vector<double> sharpness = edge_angles(mesh);
-  for (Dual_mesh::Index e = 0; e < sharpness.size(); ++e)
-    sharpness[e] /= tolerance.sharp_angle(mesh.graph().faces_of(e));
-  return sharpness;
-}
+std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance);
 
 }  // namespace internal
 
@@ -111,38 +105,16 @@ class Analytic_surface_cost {
   /// \endcond
 
   /// The region of a single face of the mesh that this was made for.
-  Region region(const Dual_mesh&, Dual_mesh::Index face) const {
-    Region region;
-    for (const Dual_mesh::Index v : mesh_.corners(face)) region.vertices.insert(v, most_samples_);
-    if (has_normal(face)) region.faces.insert(face, most_samples_);
-    return region;
-  }
+  Region region(const Dual_mesh& mesh, Dual_mesh::Index face) const;
 
   /// Adds the vertices and faces of another region.
-  void join(Region& region, const Region& other) const {
-    region.vertices.join(other.vertices, most_samples_);
-    region.faces.join(other.faces, most_samples_);
-    region.surface.reset();
-  }
+  void join(Region& region, const Region& other) const;
 
   /// The cost of merging two regions.
-  double operator()(const Region& a, const Region& b, const Region_boundary& boundary) const {
-    // Squared deviations that no change of the surface makes good.
-    constexpr double hopeless = 100;
-    const double sharpness = boundary.common.difference / boundary.common.length;
-    if (sharpness > 1) return impossible * sharpness;
-    const double known = std::max(misfit_of_known(a, b), misfit_of_known(b, a));
-    if (known > hopeless) return known * (1 + sharpness);
-    Region whole = a;
-    join(whole, b);
-    return cost_of(whole);
-  }
+  double operator()(const Region& a, const Region& b, const Region_boundary& boundary) const;
 
   /// The surface that explains a region best, in the unit box.
-  const Analytic_surface& surface_of(const Region& region) const {
-    if (!region.surface) region.surface = fit_analytic_surface(samples_of(region), tolerance_->distance);
-    return *region.surface;
-  }
+  const Analytic_surface& surface_of(const Region& region) const;
 
  private:
   static constexpr double impossible = 1e12;  // a cost above all others
@@ -151,71 +123,17 @@ class Analytic_surface_cost {
 
   /// How far a region is from the surface of another one that is beyond doubt, in squared expected deviations; 0 if it
   /// is in doubt. Spares most fits.
-  double misfit_of_known(const Region& a, const Region& b) const {
-    constexpr std::size_t doubtless_surplus = 8;     // vertices beyond those that determine a surface
-    constexpr std::size_t doubtless_free_form = 30;  // vertices that lie on no surface
-    const Analytic_surface& surface = surface_of(a);
-    const auto freedom = static_cast<std::size_t>(degrees_of_freedom(surface.type));
-    if (surface.type == Surface_type::free_form) return a.vertices.size() < doubtless_free_form ? 0 : impossible;
-    if (a.vertices.size() < freedom + doubtless_surplus) return 0;
-    return internal::with_type_of(surface, [&](const auto& s) {
-      double squares = 0;
-      b.vertices.for_each([&](Dual_mesh::Index v) {
-        const double d = s.distance(mesh_.point(v)) / tolerance_->distance;
-        squares += d * d;
-      });
-      return squares / static_cast<double>(b.vertices.size());
-    });
-  }
+  double misfit_of_known(const Region& a, const Region& b) const;
 
-  double cost_of(const Region& region) const {
-    constexpr double good_cost = 0.2;  // a more complex surface is not asked for
-    const Surface_samples samples = samples_of(region);
-    const internal::Surface_fit fit(samples);
-    double least = impossible;
-    for (const Surface_type type : analytic_types) {
-      const double surplus = static_cast<double>(samples.points.size()) - degrees_of_freedom(type);
-      if (surplus < 1) break;
-      const auto surface = fit.fit(type);
-      if (surface) least = std::min(least, distance_term(*surface, samples, surplus) + normal_term(*surface, region));
-      if (least < good_cost) break;
-    }
-    return least;
-  }
+  double cost_of(const Region& region) const;
 
-  Surface_samples samples_of(const Region& region) const {
-    Surface_samples samples;
-    region.vertices.for_each([&](Dual_mesh::Index v) { samples.points.push_back(mesh_.point(v)); });
-    region.faces.for_each([&](Dual_mesh::Index f) {
-      samples.normal_points.push_back(mesh_.centroid(f));
-      samples.normals.push_back(mesh_.shape_normals()[f]);
-    });
-    return samples;
-  }
+  Surface_samples samples_of(const Region& region) const;
 
   /// 1 where the variance of the distances is that of one and a half of the expected deviation.
-  double distance_term(const Analytic_surface& surface, const Surface_samples& samples, double surplus) const {
-    constexpr double allowed = 1.5 * 1.5;
-    const double ratio = surface.residual / tolerance_->distance;
-    const double squares = static_cast<double>(samples.points.size()) * ratio * ratio;
-    return std::min(impossible, (squares + degrees_of_freedom(surface.type)) / surplus / allowed);
-  }
+  double distance_term(const Analytic_surface& surface, const Surface_samples& samples, double surplus) const;
 
   /// The mean of the squared deviations of the normals, as parts of those allowed.
-  double normal_term(const Analytic_surface& surface, const Region& region) const {
-    return internal::with_type_of(surface, [&](const auto& s) {
-      double outward = 0, squares[2] = {0, 0}, count = 0;
-      region.faces.for_each([&](Dual_mesh::Index f) {
-        const Eigen::Vector3d n = s.normal(mesh_.centroid(f)), &own = mesh_.shape_normals()[f];
-        outward += n.dot(own);
-        const double square = tolerance_->normal_angle[f] * tolerance_->normal_angle[f];
-        squares[0] += (n + own).squaredNorm() / square;
-        squares[1] += (n - own).squaredNorm() / square;
-        ++count;
-      });
-      return count > 0 ? squares[outward > 0] / count : 0;
-    });
-  }
+  double normal_term(const Analytic_surface& surface, const Region& region) const;
 
   Dual_mesh mesh_;
   std::shared_ptr<const internal::Surface_tolerance> tolerance_;
@@ -223,5 +141,9 @@ class Analytic_surface_cost {
 };
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Analytic_surface_cost.h>
+#endif
 
 #endif

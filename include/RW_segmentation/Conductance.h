@@ -4,18 +4,14 @@
 #define RW_SEGMENTATION_CONDUCTANCE_H
 
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Shared_edge_values.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -25,34 +21,11 @@ namespace RW_segmentation {
 namespace internal {
 
 /// \throws std::invalid_argument unless `sigma` is positive and finite and `cap` positive
-inline void require_conductance_numbers(double sigma, double cap) {
-  if (!(sigma > 0) || !std::isfinite(sigma)) throw argument_error("sigma", sigma, "positive and finite");
-  if (!(cap > 0)) throw argument_error("cap", cap, "positive");
-}
+void require_conductance_numbers(double sigma, double cap);
 
 /// Eq. 6.
-inline std::vector<double> conductances(const Dual_mesh& mesh, const std::vector<double>& differences, double sigma,
-                                        double cap) {
-  // exp(-600) = 1e-261 times a length remains a normal number.
-  constexpr double largest_exponent = 600;
-  // An edge without length must not cut the graph.
-  constexpr double shortest_length = 1e-6;
-
-  require_conductance_numbers(sigma, cap);
-  const std::vector<double>& length = mesh.edge_lengths();
-  const double mean_length = mesh.mean_edge_length();
-  const double shortest = mean_length > 0 ? shortest_length * mean_length : 1;
-
-  const double limit = std::min(cap, largest_exponent);
-  std::vector<double> w(differences.size());
-  parallel_stretches(w.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e)
-      w[e] = mesh.is_wall(static_cast<Dual_mesh::Index>(e))
-                 ? 0
-                 : std::max(length[e], shortest) * std::exp(-std::min(differences[e] / sigma, limit));
-  });
-  return w;
-}
+std::vector<double> conductances(const Dual_mesh& mesh, const std::vector<double>& differences, double sigma,
+                                 double cap);
 
 }  // namespace internal
 
@@ -154,5 +127,9 @@ struct Is_conductance<T, std::void_t<typename T::is_conductance>> : std::true_ty
 }  // namespace internal
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Conductance.h>
+#endif
 
 #endif

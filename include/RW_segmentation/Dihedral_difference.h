@@ -4,10 +4,8 @@
 #define RW_SEGMENTATION_DIHEDRAL_DIFFERENCE_H
 
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/Shared_edge_values.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -16,11 +14,8 @@
 
 #include <boost/graph/graph_traits.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -51,58 +46,6 @@ struct Dihedral_difference_policy {
 /// The difference that agrees best with people on natural shapes, where normals are smoothed: the concavity in excess of
 /// an ordinary one.
 inline Dihedral_difference_policy smoothed_concavity() { return {0, Dihedral_measure::angle, 1}; }
-
-namespace internal {
-
-/// \throws std::invalid_argument
-inline void require_dihedral_numbers(const Dihedral_difference_policy& policy) {
-  if (!(policy.convex_weight >= 0 && policy.convex_weight <= 1))
-    throw argument_error("convex_weight", policy.convex_weight, "between 0 and 1");
-  if (!(policy.ordinary_difference >= 0))
-    throw argument_error("ordinary_difference", policy.ordinary_difference, "at least 0");
-}
-
-/// Divides numbers by their mean; all become 0 if it is below a limit.
-inline void divide_by_mean(std::vector<double>& d, double least_mean) {
-  const double mean = d.empty() ? 0 : std::accumulate(d.begin(), d.end(), 0.) / static_cast<double>(d.size());
-  for (double& value : d) value = mean < least_mean ? 0 : value / mean;
-}
-
-/// Eq. 4.
-inline std::vector<double> weighted_angles(const Dual_mesh& mesh, double convex_weight, Dihedral_measure measure) {
-  // |Ni - Nj|^2 of faces folded onto each other, up to 1e-6 radians: there only rounding tells convex from concave.
-  constexpr double folded = 4 - 1e-12;
-  const std::vector<Eigen::Vector3d>& normals = mesh.shape_normals();
-  std::vector<double> d(mesh.number_of_edges());
-  parallel_stretches(d.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) {
-      const auto [i, j] = mesh.graph().faces_of(static_cast<Dual_mesh::Index>(e));
-      const Eigen::Vector3d turn = normals[j] - normals[i];
-      if (normals[i].isZero(0) || normals[j].isZero(0)) continue;
-      const bool concave = turn.dot(mesh.centroid(j) - mesh.centroid(i)) < 0 && turn.squaredNorm() < folded;
-      const double eta = concave ? 1 : convex_weight;
-      // |Ni - Nj|^2 / 2, because 1 - Ni.Nj would lose all digits on flat edges.
-      d[e] = eta * (measure == Dihedral_measure::angle ? turn.norm() : turn.squaredNorm() / 2);
-    }
-  });
-  return d;
-}
-
-}  // namespace internal
-
-inline std::vector<double> Dihedral_difference_policy::operator()(const Dual_mesh& mesh) const {
-  internal::require_dihedral_numbers(*this);
-  std::vector<double> d = internal::weighted_angles(mesh, convex_weight, measure);
-  // Below this the mesh is flat, and its angles are the rounding of coordinates.
-  const double flat_angle = std::max(1e-6, 2 * mesh.rounding() / std::max(mesh.mean_edge_length(), 1e-12));
-  internal::divide_by_mean(d, measure == Dihedral_measure::angle ? flat_angle : flat_angle * flat_angle);
-  if (ordinary_difference > 0) {
-    for (double& value : d)
-      value = value > ordinary_difference ? std::sqrt(value * value - ordinary_difference * ordinary_difference) : 0;
-    internal::divide_by_mean(d, std::numeric_limits<double>::min());
-  }
-  return d;
-}
 
 /// The difference of two faces by the angle between their normals (Eq. 4 and 5):
 /// d1 = eta (1 - cos theta), divided by its mean over all interior edges, so that 1 is an average edge.
@@ -189,5 +132,9 @@ class Dihedral_difference : public internal::Shared_edge_values<FaceListGraph> {
 };
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Dihedral_difference.h>
+#endif
 
 #endif

@@ -66,16 +66,7 @@ class Dual_mesh {
 
   /// \param points_in_box the unit box that the points lie in already; without it they are moved and scaled
   /// Complexity: linear.
-  explicit Dual_mesh(Arrays arrays, const internal::Unit_box* points_in_box = nullptr) {
-    box_ = points_in_box ? *points_in_box : internal::Unit_box(arrays.points);
-    if (!points_in_box)
-      for (Eigen::Vector3d& p : arrays.points) p = box_.scaled(p);
-    geometry_ =
-        std::make_shared<const internal::Face_geometry>(arrays.points, arrays.corners, arrays.edge_ends, box_.rounding);
-    arrays_ = std::make_shared<const Arrays>(std::move(arrays));
-    points_ = {arrays_, &arrays_->points};
-    shape_normals_ = {geometry_, &geometry_->normal};
-  }
+  explicit Dual_mesh(Arrays arrays, const internal::Unit_box* points_in_box = nullptr);
 
   /// The faces and their neighbours, a graph of Boost.Graph.
   const Dual_graph& graph() const { return arrays_->graph; }
@@ -136,22 +127,11 @@ class Dual_mesh {
 
   /// This mesh with other normals of its shape.
   /// \param normals by face, of unit length or zero
-  Dual_mesh with_shape_normals(std::vector<Eigen::Vector3d> normals) const {
-    Dual_mesh result = *this;
-    result.shape_normals_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(normals));
-    return result;
-  }
+  Dual_mesh with_shape_normals(std::vector<Eigen::Vector3d> normals) const;
 
   /// This mesh with its vertices elsewhere.
   /// \param points by vertex, in the unit box, which stays what it is
-  Dual_mesh with_points(std::vector<Eigen::Vector3d> points) const {
-    Dual_mesh result = *this;
-    result.points_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(points));
-    result.geometry_ = std::make_shared<const internal::Face_geometry>(*result.points_, arrays_->corners,
-                                                                       arrays_->edge_ends, box_.rounding);
-    result.shape_normals_ = {result.geometry_, &result.geometry_->normal};
-    return result;
-  }
+  Dual_mesh with_points(std::vector<Eigen::Vector3d> points) const;
 
  private:
   internal::Unit_box box_;
@@ -496,5 +476,9 @@ template <class FaceListGraph>
 struct graph_traits<RW_segmentation::Dual_mesh_of<FaceListGraph>> : graph_traits<FaceListGraph> {};
 
 }  // namespace boost
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Dual_mesh.h>
+#endif
 
 #endif

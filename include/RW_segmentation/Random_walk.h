@@ -83,8 +83,8 @@ class Random_walk {
   Random_walk(const Mesh& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
               const NamedParameters& np = CGAL::parameters::default_values())
       : mesh_(internal::dual_mesh(mesh, np)),
-        walk_(mesh_.graph(), internal::read_conductances(mesh_, conductance), std::move(solver),
-              internal::progress_of(np)),
+        walk_(mesh_.graph(), internal::read_conductances(mesh_, conductance),
+              internal::Any_walk_solver(std::move(solver)), internal::progress_of(np)),
         faces_at_start_(num_faces(mesh_.mesh())),
         edges_at_start_(num_edges(mesh_.mesh())) {
     static_assert(internal::has_conductances<ConductanceMap>,
@@ -215,7 +215,7 @@ class Random_walk {
   }
 
   Dual_mesh_of<FaceListGraph> mesh_;  // its graph stays where the walk refers to it
-  internal::Graph_walk<Solver> walk_;
+  internal::Graph_walk walk_;
   std::size_t faces_at_start_, edges_at_start_;
 };
 

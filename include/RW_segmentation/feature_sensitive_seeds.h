@@ -8,8 +8,6 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
-#include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 #include <RW_segmentation/internal/seeds/read_seeds.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -59,68 +57,6 @@ class Farthest_point_sampling {
  private:
   double normal_weight_ = 0.05;
 };
-
-namespace internal {
-
-/// The first face whose value is the greatest but for rounding, so that a symmetric mesh gives the same answer in every
-/// position.
-template <class Values>
-Dual_mesh::Index first_greatest(const Values& values) {
-  const double greatest = *std::max_element(values.begin(), values.end());
-  const double limit = greatest - 1e-9 * std::abs(greatest);
-  return static_cast<Dual_mesh::Index>(
-      std::find_if(values.begin(), values.end(), [&](double value) { return value >= limit; }) - values.begin());
-}
-
-/// The face whose centroid is farthest from the centroid of the surface.
-inline Dual_mesh::Index face_farthest_from_centroid(const Dual_mesh& mesh) {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) moment += mesh.areas()[f] * mesh.centroids()[f];
-  const Eigen::Vector3d centroid = mesh.total_area() > 0 ? moment / mesh.total_area() : moment;
-  std::vector<double> distance;
-  distance.reserve(mesh.number_of_faces());
-  for (const Eigen::Vector3d& x : mesh.centroids()) distance.push_back((x - centroid).norm());
-  return first_greatest(distance);
-}
-
-/// Adds a source in each component that has none, its first face, and returns these faces.
-inline std::vector<Dual_mesh::Index> reach_all_components(Distances_to_sources& distance) {
-  std::vector<Dual_mesh::Index> added;
-  for (std::size_t f = 0; f < (*distance).size(); ++f) {
-    const auto face = static_cast<Dual_mesh::Index>(f);
-    if (!std::isinf(distance[face])) continue;
-    distance.add_source(face);
-    added.push_back(face);
-  }
-  return added;
-}
-
-}  // namespace internal
-
-inline std::vector<Dual_mesh::Index> Farthest_point_sampling::operator()(const Dual_mesh& mesh,
-                                                                         const std::vector<Dual_mesh::Index>& given,
-                                                                         std::size_t count,
-                                                                         const Progress& progress) const {
-  internal::Distances_to_sources distance(mesh.graph(),
-                                          internal::Feature_sensitive_metric(mesh, normal_weight_).edge_lengths());
-  std::vector<Dual_mesh::Index> seeds;
-  if (given.empty()) seeds.push_back(internal::face_farthest_from_centroid(mesh));
-  for (const auto face : given) distance.add_source(face);
-  for (const auto face : seeds) distance.add_source(face);
-
-  const auto out_of_reach = internal::reach_all_components(distance);
-  seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());
-  if (seeds.size() > count) {
-    const std::string components = std::to_string(seeds.size()) + ", the number of components without a given seed";
-    throw internal::argument_error("count", count, ("at least " + components).c_str());
-  }
-  while (seeds.size() < count) {
-    progress(static_cast<double>(seeds.size()) / static_cast<double>(count));
-    seeds.push_back(internal::first_greatest(*distance));
-    distance.add_source(seeds.back());
-  }
-  return seeds;
-}
 
 /// Seeds that lie evenly on the shape, a seeding policy: a function object from a dual mesh, the difference of its edges and
 /// the seeds that are given to the seeds that it adds.
@@ -207,5 +143,9 @@ OutputIterator feature_sensitive_seeds(const FaceListGraph& mesh, std::size_t co
 }
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/feature_sensitive_seeds.h>
+#endif
 
 #endif

@@ -4,13 +4,10 @@
 #define RW_SEGMENTATION_SEGMENT_SURFACES_H
 
 #include <RW_segmentation/Analytic_surface.h>
-#include <RW_segmentation/Analytic_surface_cost.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/merging/Region_merging.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
-#include <RW_segmentation/internal/surfaces/noise_of_vertices.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -24,27 +21,10 @@ namespace RW_segmentation {
 
 namespace internal {
 
-/// From the unit box to the mesh's coordinates.
-inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Dual_mesh& mesh) {
-  surface.point = mesh.unit() * surface.point + mesh.origin();
-  surface.radius *= mesh.unit();
-  surface.tube_radius *= mesh.unit();
-  surface.residual *= mesh.unit();
-  return surface;
-}
-
 /// \param segment_of_face numbers from 0 to `number_of_segments` - 1
-inline std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
-                                                          const std::vector<std::size_t>& segment_of_face,
-                                                          std::size_t number_of_segments, double noise) {
-  constexpr std::size_t most_samples = 500;  // vertices of a segment
-  const Analytic_surface_cost cost(mesh, surface_tolerance(mesh, noise), most_samples);
-  const auto regions =
-      join_faces(segment_of_face, number_of_segments, cost, [&](Dual_mesh::Index f) { return cost.region(mesh, f); });
-  std::vector<Analytic_surface> surfaces;
-  for (const auto& region : regions) surfaces.push_back(in_mesh_coordinates(cost.surface_of(region), mesh));
-  return surfaces;
-}
+std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
+                                                   const std::vector<std::size_t>& segment_of_face,
+                                                   std::size_t number_of_segments, double noise);
 
 }  // namespace internal
 
@@ -84,5 +64,9 @@ std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const 
 }
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/segment_surfaces.h>
+#endif
 
 #endif

@@ -7,9 +7,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/boundary/Boundary_smoother.h>
 #include <RW_segmentation/internal/boundary/Curve_joint.h>
-#include <RW_segmentation/internal/boundary/Lifted_surface.h>
 #include <RW_segmentation/internal/boundary/Surface_curve.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/boundary/Walled_surface.h>
@@ -53,54 +51,13 @@ struct Boundary_smoothing {
 namespace internal {
 
 /// \throws std::invalid_argument
-inline void require_boundary_smoothing_numbers(const Boundary_smoothing& smoothing) {
-  const auto require = [](const char* name, double value) {
-    if (!(value >= 0) || !std::isfinite(value)) throw argument_error(name, value, "a finite number >= 0");
-  };
-  require("length", smoothing.length);
-  require("tension", smoothing.tension);
-  require("feature_weight", smoothing.feature_weight);
-  require("largest_displacement", smoothing.largest_displacement);
-  if (!(smoothing.crease_angle > 0)) throw argument_error("crease_angle", smoothing.crease_angle, "positive");
-}
-
-/// The numbers of the policy in the unit box.
-inline Curve_smoothing_numbers curve_smoothing_numbers(const Boundary_smoothing& smoothing, double mean_edge_length) {
-  constexpr double stiffest = 1e12;  // than which a spline cannot be told from a straight one
-  const double steps = static_cast<double>(std::max<std::size_t>(smoothing.steps, 1));
-  const double length = smoothing.length;
-  Curve_smoothing_numbers numbers{};
-  numbers.stiffness = std::min(std::pow(length, 4) / steps, stiffest);
-  numbers.tension = std::min(smoothing.tension * length * length / steps, stiffest);
-  numbers.steps = smoothing.steps;
-  numbers.corridor = smoothing.largest_displacement * mean_edge_length;
-  numbers.longest_step = mean_edge_length / 2;
-  return numbers;
-}
-
-/// Whether the faces beside each halfedge turn by more than an angle.
-inline std::vector<char> sharp_halfedges(const Triangle_surface& surface, const std::vector<Eigen::Vector3d>& normals,
-                                         double angle) {
-  const double least_turn = 2 * std::sin(std::min(angle, std::acos(-1.)) / 2);
-  std::vector<char> is_sharp(surface.number_of_halfedges(), false);
-  for (Triangle_surface::Index h = 0; h < surface.number_of_halfedges(); ++h)
-    is_sharp[h] =
-        !surface.is_border(h) &&
-        (normals[Triangle_surface::face(h)] - normals[Triangle_surface::face(surface.twin(h))]).norm() > least_turn;
-  return is_sharp;
-}
+void require_boundary_smoothing_numbers(const Boundary_smoothing& smoothing);
 
 /// The boundaries in the unit box.
-inline std::vector<Surface_curve> smoothed_curves(const Dual_mesh& mesh, const Walled_surface& surface,
-                                                  const std::vector<std::size_t>& segment_of_face,
-                                                  const Boundary_smoothing& smoothing, const Curve_joining& joining,
-                                                  const Progress& progress) {
-  const std::vector<Eigen::Vector3d> normals = smooth_normals(mesh, smoothing.normals, progress.part(0, 0.5));
-  const Lifted_surface lifted(surface.open(), normals, smoothing.feature_weight * std::sqrt(mesh.total_area()));
-  const Curve_smoothing_numbers numbers = curve_smoothing_numbers(smoothing, surface.whole().mean_edge_length());
-  const Boundary_smoother smooth(surface, lifted, segment_of_face, numbers, joining);
-  return smooth(sharp_halfedges(surface.open(), normals, smoothing.crease_angle), progress.part(0.5, 1));
-}
+std::vector<Surface_curve> smoothed_curves(const Dual_mesh& mesh, const Walled_surface& surface,
+                                           const std::vector<std::size_t>& segment_of_face,
+                                           const Boundary_smoothing& smoothing, const Curve_joining& joining,
+                                           const Progress& progress);
 
 /// Tells where a halfedge begins, in the mesh's coordinates.
 template <class FaceListGraph, class NamedParameters>
@@ -234,5 +191,9 @@ auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_id
 }
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/smooth_boundaries.h>
+#endif
 
 #endif

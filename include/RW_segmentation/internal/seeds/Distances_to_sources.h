@@ -89,6 +89,18 @@ class Distances_to_sources {
   std::array<std::vector<Reached>, buckets> bucket_;
 };
 
+/// Adds a source in each component that has none, its first face, and returns these faces.
+inline std::vector<Dual_graph::Index> reach_all_components(Distances_to_sources& distance) {
+  std::vector<Dual_graph::Index> added;
+  for (std::size_t f = 0; f < (*distance).size(); ++f) {
+    const auto face = static_cast<Dual_graph::Index>(f);
+    if (!std::isinf(distance[face])) continue;
+    distance.add_source(face);
+    added.push_back(face);
+  }
+  return added;
+}
+
 }  // namespace RW_segmentation::internal
 
 #endif

@@ -14,11 +14,11 @@
 // machine's best is taken, so that a program built without -march=native still uses FMA and wide registers.
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__)
 #define RW_SEGMENTATION_X86_DISPATCH
-#define RW_SEGMENTATION_INLINE inline __attribute__((always_inline))
+#define RW_SEGMENTATION_ALWAYS_INLINE inline __attribute__((always_inline))
 #elif defined(__GNUC__) || defined(__clang__)
-#define RW_SEGMENTATION_INLINE inline __attribute__((always_inline))
+#define RW_SEGMENTATION_ALWAYS_INLINE inline __attribute__((always_inline))
 #else
-#define RW_SEGMENTATION_INLINE inline
+#define RW_SEGMENTATION_ALWAYS_INLINE inline
 #endif
 
 namespace RW_segmentation::internal {
@@ -49,8 +49,8 @@ constexpr std::size_t packed_size(std::size_t largest_front) { return (largest_f
 
 /// tile = the product of packed strips a (depth x 2 vectors) and b (depth x 4).
 template <std::size_t vector_length>
-RW_SEGMENTATION_INLINE void multiply_tile(const double* a, const double* b, std::size_t depth,
-                                          double (&tile)[tile_columns][2 * vector_length]) {
+RW_SEGMENTATION_ALWAYS_INLINE void multiply_tile(const double* a, const double* b, std::size_t depth,
+                                                 double (&tile)[tile_columns][2 * vector_length]) {
 #if defined(__GNUC__) || defined(__clang__)
   using Vector __attribute__((vector_size(vector_length * sizeof(double)), aligned(8))) = double;
   Vector c[tile_columns][2] = {};
@@ -83,7 +83,7 @@ struct Outer_product {
 inline bool is_small(const Outer_product& product) { return product.rows < 24 || product.depth < 4; }
 
 /// Adds a small product as it stands.
-RW_SEGMENTATION_INLINE void add_small_product(const Outer_product& product) {
+RW_SEGMENTATION_ALWAYS_INLINE void add_small_product(const Outer_product& product) {
   const double *y = product.y, *p = product.p;
   for (std::size_t k = 0; k < product.depth; ++k, y += product.stride, p += product.stride)
     for (std::size_t j = 0; j < product.columns; ++j) {
@@ -94,7 +94,7 @@ RW_SEGMENTATION_INLINE void add_small_product(const Outer_product& product) {
 }
 
 /// Packs p into strips of a tile's columns.
-RW_SEGMENTATION_INLINE void pack_columns(const Outer_product& product, double* packed) {
+RW_SEGMENTATION_ALWAYS_INLINE void pack_columns(const Outer_product& product, double* packed) {
   for (std::size_t j = 0; j < product.columns; j += tile_columns)
     for (std::size_t k = 0; k < product.depth; ++k)
       for (std::size_t t = 0; t < tile_columns; ++t)
@@ -104,8 +104,8 @@ RW_SEGMENTATION_INLINE void pack_columns(const Outer_product& product, double* p
 
 /// Adds the rows from `begin`, a multiple of a tile's rows, to less than `end`.
 template <std::size_t vector_length>
-RW_SEGMENTATION_INLINE void add_rows(const Outer_product& product, const double* packed, std::size_t begin,
-                                     std::size_t end) {
+RW_SEGMENTATION_ALWAYS_INLINE void add_rows(const Outer_product& product, const double* packed, std::size_t begin,
+                                            std::size_t end) {
   constexpr std::size_t tile_rows = 2 * vector_length;
   const auto& [z, z_stride, y, p, stride, rows, columns, depth] = product;
   double a[tile_rows * front_block];
@@ -156,8 +156,8 @@ inline Outer_product update_of_rows(const Front& front, std::size_t begin, std::
 /// quotients of non-negative numbers: no digit is ever cancelled.
 /// \param transition where the block's columns of the result begin
 /// \returns where they end
-RW_SEGMENTATION_INLINE double* eliminate_block(const Front& front, std::size_t begin, std::size_t end,
-                                               double* transition) {
+RW_SEGMENTATION_ALWAYS_INLINE double* eliminate_block(const Front& front, std::size_t begin, std::size_t end,
+                                                      double* transition) {
   const std::size_t size = front.pivots + front.rows;
   for (std::size_t k = begin; k < end; ++k) {
     const double* c = front.panel + k * size;
@@ -192,7 +192,7 @@ RW_SEGMENTATION_INLINE double* eliminate_block(const Front& front, std::size_t b
 }
 
 template <std::size_t vector_length>
-RW_SEGMENTATION_INLINE void add_outer_product(const Outer_product& product, double* packed) {
+RW_SEGMENTATION_ALWAYS_INLINE void add_outer_product(const Outer_product& product, double* packed) {
   if (is_small(product)) return add_small_product(product);
   pack_columns(product, packed);
   add_rows<vector_length>(product, packed, 0, product.rows);
@@ -200,7 +200,7 @@ RW_SEGMENTATION_INLINE void add_outer_product(const Outer_product& product, doub
 
 /// Eliminates all pivots of a front.
 template <std::size_t vector_length>
-RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
+RW_SEGMENTATION_ALWAYS_INLINE void eliminate(const Front& front) {
   double* transition = front.transition;
   for (std::size_t begin = 0; begin < front.pivots; begin += front_block) {
     const std::size_t end = std::min(front.pivots, begin + front_block);
@@ -210,7 +210,7 @@ RW_SEGMENTATION_INLINE void eliminate(const Front& front) {
   }
 }
 
-RW_SEGMENTATION_INLINE double dot_product(const double* a, const double* b, std::size_t length) {
+RW_SEGMENTATION_ALWAYS_INLINE double dot_product(const double* a, const double* b, std::size_t length) {
   // Eight sums: one would make each addition wait for the one before.
   double sum[8] = {}, rest = 0;
   std::size_t i = 0;
@@ -223,8 +223,8 @@ RW_SEGMENTATION_INLINE double dot_product(const double* a, const double* b, std:
 /// Back-substitution through one supernode for `labels` values a face: x_k = source_k + sum_i p_ki x_i, last pivot
 /// first. `x` holds (pivots + rows) x labels, pivots with their source terms; seeds keep what they hold.
 template <std::size_t labels, std::size_t longest>
-RW_SEGMENTATION_INLINE void substitute(const double* transition, std::size_t pivots, std::size_t rows,
-                                       const std::uint32_t* absorbing, double* x) {
+RW_SEGMENTATION_ALWAYS_INLINE void substitute(const double* transition, std::size_t pivots, std::size_t rows,
+                                              const std::uint32_t* absorbing, double* x) {
   const std::size_t size = pivots + rows;
   const double* p = transition + pivots * (pivots - 1) / 2 + pivots * rows;  // behind the last column
   for (std::size_t k = pivots; k-- > 0;) {
@@ -268,8 +268,8 @@ RW_SEGMENTATION_INLINE void substitute(const double* transition, std::size_t piv
 
 /// Keeps the larger of two potentials and its rank, the earlier one on a tie, and adds to the total. Ranks are doubles so
 /// that one comparison selects both in wide registers.
-RW_SEGMENTATION_INLINE void select_largest(const double* potential, double rank, std::size_t count, double* largest,
-                                           double* best, double* total) {
+RW_SEGMENTATION_ALWAYS_INLINE void select_largest(const double* potential, double rank, std::size_t count,
+                                                  double* largest, double* best, double* total) {
   for (std::size_t i = 0; i < count; ++i) {
     const bool larger = potential[i] > largest[i];
     total[i] += potential[i];

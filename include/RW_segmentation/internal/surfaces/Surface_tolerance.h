@@ -100,6 +100,14 @@ inline std::vector<double> edge_angles(const Dual_mesh& mesh) {
   return angles;
 }
 
+/// \throws std::invalid_argument
+void require_noise(double noise);
+
+/// The tolerance of a mesh.
+/// \param noise standard deviation of the vertices in parts of the diagonal; negative: to be estimated
+/// \throws std::invalid_argument if the noise is not finite
+Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise);
+
 }  // namespace RW_segmentation::internal
 
 #endif

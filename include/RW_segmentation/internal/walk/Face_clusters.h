@@ -4,9 +4,12 @@
 #define RW_SEGMENTATION_INTERNAL_WALK_FACE_CLUSTERS_H
 
 #include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Walk_reduction.h>
+#include <RW_segmentation/internal/walk/Walk_network.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -117,6 +120,44 @@ struct Face_clusters {
     graph = Dual_graph(root.size(), std::move(ends));
   }
 };
+
+/// Adds what lies within so many steps of different nodes to them, in the order of the steps.
+inline void add_surroundings(const Dual_graph& graph, std::size_t steps, std::vector<Dual_graph::Index>& nodes) {
+  std::vector<char> is_reached(graph.number_of_faces(), false);
+  for (const auto node : nodes) is_reached[node] = true;
+  std::size_t next = 0;
+  for (std::size_t step = 0; step < steps; ++step)
+    for (const std::size_t end = nodes.size(); next < end; ++next)
+      for (const auto& neighbour : graph.neighbours(nodes[next])) {
+        if (is_reached[neighbour.face]) continue;
+        is_reached[neighbour.face] = true;
+        nodes.push_back(neighbour.face);
+      }
+}
+
+/// The least distance between the roots of clusters. Clusters of larger meshes hold more faces, lest their number grow.
+inline std::size_t cluster_steps(std::size_t faces, const Walk_reduction& reduction) {
+  constexpr double large = 2.5e6;
+  const double growth = std::sqrt(std::max(1., static_cast<double>(faces) / large));
+  return static_cast<std::size_t>(std::llround(growth * static_cast<double>(reduction.cluster_steps)));
+}
+
+/// Clusters for a walk from seeds. They are fine where a walk begins, since a wide seed would be met too often: the faces
+/// around a seed are clusters by themselves, those of the seeds the first ones.
+inline Face_clusters clusters_around(const std::vector<Dual_graph::Index>& seeds, const Walk_network& network,
+                                     const std::vector<double>& edge_length, const Walk_reduction& reduction) {
+  const double least = std::exp(-reduction.largest_difference);
+  std::vector<char> is_crossed;
+  is_crossed.reserve(network.conductances.size());
+  for (std::size_t e = 0; e < network.conductances.size(); ++e) {
+    const double conductance = network.conductances[e];
+    is_crossed.push_back(conductance > 0 && conductance >= least * edge_length[e]);
+  }
+  std::vector<Dual_graph::Index> alone = seeds;
+  const std::size_t steps = cluster_steps(network.graph.number_of_faces(), reduction);
+  add_surroundings(network.graph, steps, alone);
+  return Face_clusters(network.graph, network.conductances, is_crossed, steps, alone);
+}
 
 }  // namespace RW_segmentation::internal
 

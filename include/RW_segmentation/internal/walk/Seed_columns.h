@@ -53,8 +53,7 @@ class Seed_columns {
   std::size_t number_added() const { return number_added_; }
 
   /// Brings the columns to the seeds. False where that is impossible, inaccurate or not worth it; they are of no use then.
-  template <class Solver>
-  bool update(const Walk_network& network, const Walk_factor<Solver>& factor, const Seed_set& seeds);
+  bool update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds);
 
  private:
   /// What is left between the seeds with a column when all other faces are eliminated, in the order of the columns.
@@ -94,10 +93,8 @@ class Seed_columns {
     return current;
   }
 
-  template <class Solver>
-  void fill(const Walk_network& network, const Walk_factor<Solver>& factor);
-  template <class Solver>
-  std::vector<double> source_function(Index s, const Walk_network& network, const Walk_factor<Solver>& factor) const;
+  void fill(const Walk_network& network, const Walk_factor& factor);
+  std::vector<double> source_function(Index s, const Walk_network& network, const Walk_factor& factor) const;
   std::vector<double> base_values(const std::vector<Index>& base, std::vector<double> current) const;
   bool add(Index s, std::vector<double> h, const Walk_network& network);
   bool remove(std::size_t place, const Walk_network& network);
@@ -110,8 +107,7 @@ class Seed_columns {
 
 // -------------------------------------------------------------------------------------------------------------------
 
-template <class Solver>
-bool Seed_columns::update(const Walk_network& network, const Walk_factor<Solver>& factor, const Seed_set& seeds) {
+inline bool Seed_columns::update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds) {
   if (!factor.is_made() || seeds.size() > most_columns) return false;
   std::vector<Index> present = factor.base(), added;
   if (!empty()) {
@@ -135,8 +131,7 @@ bool Seed_columns::update(const Walk_network& network, const Walk_factor<Solver>
 }
 
 /// Makes the columns of the seeds that the factor absorbs at.
-template <class Solver>
-void Seed_columns::fill(const Walk_network& network, const Walk_factor<Solver>& factor) {
+inline void Seed_columns::fill(const Walk_network& network, const Walk_factor& factor) {
   constexpr Eigen::Index block = 8;
   const std::vector<Index>& base = factor.base();
   const auto count = static_cast<Eigen::Index>(base.size());
@@ -166,9 +161,8 @@ void Seed_columns::fill(const Walk_network& network, const Walk_factor<Solver>& 
 
 /// A function that is 0 at the seeds left of those in the base and whose only other sources are s and later seeds. Empty
 /// where there is none: no seed of the base is left in the component.
-template <class Solver>
-std::vector<double> Seed_columns::source_function(Index s, const Walk_network& network,
-                                                  const Walk_factor<Solver>& factor) const {
+inline std::vector<double> Seed_columns::source_function(Index s, const Walk_network& network,
+                                                         const Walk_factor& factor) const {
   const std::vector<Index>& base = factor.base();
   const bool grounded = std::any_of(base.begin(), base.end(), [&](Index b) {
     return network.component.of[b] == network.component.of[s] && has_column(b);

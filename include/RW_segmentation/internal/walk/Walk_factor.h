@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/walk/Any_walk_solver.h>
 #include <RW_segmentation/internal/walk/Seed_set.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
 
@@ -16,13 +17,12 @@
 namespace RW_segmentation::internal {
 
 /// A solver and the seeds that its factor absorbs at.
-template <class Solver>
 class Walk_factor {
  public:
   using Index = Dual_graph::Index;
   static constexpr double when_analysed = 0.3, when_made = 0.7;  ///< of the time of a walk, as its progress tells it
 
-  explicit Walk_factor(Solver solver) : solver_(std::move(solver)) {}
+  explicit Walk_factor(Any_walk_solver solver) : solver_(std::move(solver)) {}
 
   /// Takes the solver for one that has analysed the graph already.
   void solver_is_analysed() { analysed_ = true; }
@@ -51,12 +51,12 @@ class Walk_factor {
   }
   /// Where the factor absorbs.
   const std::vector<Index>& base() const { return base_; }
-  const Solver& solver() const { return solver_; }
+  const Any_walk_solver& solver() const { return solver_; }
   /// Factorisations that have been made.
   std::size_t count() const { return count_; }
 
  private:
-  Solver solver_;
+  Any_walk_solver solver_;
   std::vector<Index> base_;
   bool analysed_ = false, made_ = false;
   std::size_t count_ = 0;

@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/walk/Face_clusters.h>
 #include <RW_segmentation/internal/walk/Graph_walk.h>
 
 #include <algorithm>
@@ -15,20 +16,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// Adds what lies within so many steps of different nodes to them, in the order of the steps.
-inline void add_surroundings(const Dual_graph& graph, std::size_t steps, std::vector<Dual_graph::Index>& nodes) {
-  std::vector<char> is_reached(graph.number_of_faces(), false);
-  for (const auto node : nodes) is_reached[node] = true;
-  std::size_t next = 0;
-  for (std::size_t step = 0; step < steps; ++step)
-    for (const std::size_t end = nodes.size(); next < end; ++next)
-      for (const auto& neighbour : graph.neighbours(nodes[next])) {
-        if (is_reached[neighbour.face]) continue;
-        is_reached[neighbour.face] = true;
-        nodes.push_back(neighbour.face);
-      }
-}
 
 /// The nodes along the boundaries between labels, up to a distance of `steps` nodes.
 inline std::vector<Dual_graph::Index> band_along_boundaries(const Dual_graph& graph,
@@ -50,10 +37,9 @@ inline std::vector<Dual_graph::Index> band_along_boundaries(const Dual_graph& gr
 ///
 /// \param seeds faces that keep their labels wherever they lie
 /// \param labels of the faces; where a part of the band reaches neither, they stay as they are
-template <class Solver = Star_mesh_elimination>
-void settle_band(const Dual_graph& graph, const std::vector<double>& conductances, const std::vector<char>& is_in_band,
-                 const std::vector<Dual_graph::Index>& seeds, std::vector<std::size_t>& labels,
-                 const Progress& progress, Solver solver = Solver()) {
+inline void settle_band(const Dual_graph& graph, const std::vector<double>& conductances,
+                        const std::vector<char>& is_in_band, const std::vector<Dual_graph::Index>& seeds,
+                        std::vector<std::size_t>& labels, const Progress& progress, Any_walk_solver solver = {}) {
   using Index = Dual_graph::Index;
   constexpr Index none = std::numeric_limits<Index>::max();
   std::vector<Index> number(graph.number_of_faces(), none), faces;

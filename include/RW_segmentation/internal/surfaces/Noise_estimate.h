@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 
-#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_OF_VERTICES_H
-#define RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_OF_VERTICES_H
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_ESTIMATE_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_NOISE_ESTIMATE_H
 
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
+#include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 
 #include <algorithm>
@@ -78,19 +78,6 @@ class Noise_estimate {
   std::size_t number_of_faces_;
   Face_patches patches_;
 };
-
-/// \throws std::invalid_argument
-inline void require_noise(double noise) {
-  if (!std::isfinite(noise)) throw argument_error("noise", noise, "finite");
-}
-
-/// The tolerance of a mesh.
-/// \param noise standard deviation of the vertices in parts of the diagonal; negative: to be estimated
-/// \throws std::invalid_argument if the noise is not finite
-inline Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {
-  require_noise(noise);
-  return {mesh, noise >= 0 ? noise : Noise_estimate(mesh).standard_deviation()};
-}
 
 }  // namespace RW_segmentation::internal
 

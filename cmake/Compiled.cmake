@@ -1,0 +1,20 @@
+# The target RW_segmentation::compiled: what the library does that depends on no type of the user's, in one place instead
+# of in each program. Static or shared, by BUILD_SHARED_LIBS. Its parallel parts use TBB where that is found.
+file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
+add_library(RW_segmentation_compiled ${sources})
+add_library(RW_segmentation::compiled ALIAS RW_segmentation_compiled)
+set_target_properties(RW_segmentation_compiled PROPERTIES EXPORT_NAME compiled POSITION_INDEPENDENT_CODE ON
+  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+target_link_libraries(RW_segmentation_compiled PUBLIC RW_segmentation)
+target_compile_definitions(RW_segmentation_compiled PUBLIC RW_SEGMENTATION_COMPILED)
+set(RW_SEGMENTATION_COMPILED_OPTIONS "" CACHE STRING "Options of the compiler for RW_segmentation::compiled alone")
+target_compile_options(RW_segmentation_compiled PRIVATE ${RW_SEGMENTATION_COMPILED_OPTIONS})
+if(NOT RW_SEGMENTATION_COMPILED)
+  set_target_properties(RW_segmentation_compiled PROPERTIES EXCLUDE_FROM_ALL ON)
+endif()
+
+find_package(TBB QUIET CONFIG)
+include(CGAL_TBB_support)
+if(TARGET CGAL::TBB_support)
+  target_link_libraries(RW_segmentation_compiled PUBLIC CGAL::TBB_support)
+endif()

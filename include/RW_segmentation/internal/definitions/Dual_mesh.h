@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_DUAL_MESH_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_DUAL_MESH_H
+
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/parallel_for.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+namespace internal {
+
+RW_SEGMENTATION_INLINE Unit_box::Unit_box(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  if (box.isEmpty()) return;
+  origin = box.min() / 2 + box.max() / 2;
+  const double diagonal = 2 * (box.max() / 2 - box.min() / 2).stableNorm();
+  if (diagonal >= std::numeric_limits<double>::min()) unit = diagonal;
+  const double largest_coordinate = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  rounding = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * (1 / unit));
+}
+
+/// Sets the centroid, the normal and the area of a face.
+inline void measure_face(Face_geometry& geometry, std::size_t f, const std::vector<Eigen::Vector3d>& point,
+                         const Face_corners::Range& corners, double rounding) {
+  const Eigen::Vector3d& apex = point[corners[0]];
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), area_vector = Eigen::Vector3d::Zero();
+  Eigen::Vector3d previous = sum;  // relative to the apex
+  double extent = 0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Eigen::Vector3d corner = point[corners[k]] - apex;
+    area_vector += previous.cross(corner) / 2;
+    sum += corner;
+    extent = std::max(extent, corner.norm());
+    previous = corner;
+  }
+  geometry.area[f] = area_vector.norm();
+  // A face that is no higher than its corners are exact has no direction.
+  const bool degenerate = !(geometry.area[f] > 4 * rounding * extent);
+  geometry.centroid[f] = apex + sum / static_cast<double>(corners.size());
+  geometry.normal[f] = degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / geometry.area[f]);
+}
+
+RW_SEGMENTATION_INLINE Face_geometry::Face_geometry(const std::vector<Eigen::Vector3d>& point,
+                                                    const Face_corners& corners,
+                                                    const std::vector<std::array<std::uint32_t, 2>>& edge_ends,
+                                                    double rounding)
+    : centroid(corners.number_of_faces()),
+      normal(corners.number_of_faces()),
+      area(corners.number_of_faces()),
+      edge_length(edge_ends.size()) {
+  parallel_stretches(centroid.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      measure_face(*this, f, point, corners[static_cast<std::uint32_t>(f)], rounding);
+  });
+  parallel_stretches(edge_length.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) edge_length[e] = (point[edge_ends[e][1]] - point[edge_ends[e][0]]).norm();
+  });
+
+  for (std::size_t f = 0; f < area.size(); ++f) {
+    total_area += area[f];
+    degenerate_faces += normal[f].isZero(0);
+  }
+  for (const double length : edge_length) mean_edge_length += length;
+  if (!edge_length.empty()) mean_edge_length /= static_cast<double>(edge_length.size());
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Dual_mesh::Dual_mesh(Arrays arrays, const internal::Unit_box* points_in_box) {
+  box_ = points_in_box ? *points_in_box : internal::Unit_box(arrays.points);
+  if (!points_in_box)
+    for (Eigen::Vector3d& p : arrays.points) p = box_.scaled(p);
+  geometry_ =
+      std::make_shared<const internal::Face_geometry>(arrays.points, arrays.corners, arrays.edge_ends, box_.rounding);
+  arrays_ = std::make_shared<const Arrays>(std::move(arrays));
+  points_ = {arrays_, &arrays_->points};
+  shape_normals_ = {geometry_, &geometry_->normal};
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_shape_normals(std::vector<Eigen::Vector3d> normals) const {
+  Dual_mesh result = *this;
+  result.shape_normals_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(normals));
+  return result;
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_points(std::vector<Eigen::Vector3d> points) const {
+  Dual_mesh result = *this;
+  result.points_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(points));
+  result.geometry_ = std::make_shared<const internal::Face_geometry>(*result.points_, arrays_->corners,
+                                                                     arrays_->edge_ends, box_.rounding);
+  result.shape_normals_ = {result.geometry_, &result.geometry_->normal};
+  return result;
+}
+
+}  // namespace RW_segmentation
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_SEGMENTATION_INTO_SURFACES_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_SEGMENTATION_INTO_SURFACES_H
+
+#include <RW_segmentation/Analytic_surface_cost.h>
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/merging/Region_merging.h>
+#include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/surfaces/Region_fragments.h>
+#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/analytic_regions.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
+
+#include <algorithm>
+
+namespace RW_segmentation::internal {
+
+/// The numbers of the walk that shares out what no surface explains. A single face of a benchmark tells them apart.
+inline std::vector<double> conductances_beside_surfaces(const Dual_mesh& mesh) {
+  constexpr double every_crease = 1, sigma = 1, cap = 20;
+  return conductances(mesh, Dihedral_difference_policy{every_crease, Dihedral_measure::angle}(mesh), sigma, cap);
+}
+
+RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
+                                                                  const Progress& progress, Segmentation_report& report,
+                                                                  Stage_clock& clock) {
+  const Surface_tolerance tolerance = surface_tolerance(mesh, noise);
+  clock.note("noise");
+  const Analytic_regions regions = analytic_regions(mesh, tolerance, progress.part(0, 0.8));
+  clock.note("surfaces");
+
+  const std::vector<double> conductance = conductances_beside_surfaces(mesh);
+  Region_fragments fragments(mesh, tolerance, conductance);
+  Segments_on_surfaces result;
+  result.fragment_of_face = fragments.fragments(regions.region_of_face, progress.part(0.8, 0.85));
+  clock.note("walk");
+
+  report.components = Components(mesh.graph(), [&](Dual_mesh::Index e) { return !mesh.is_wall(e); }).count;
+  report.seeds = regions.surfaces.size();
+  report.fragments = *std::max_element(result.fragment_of_face.begin(), result.fragment_of_face.end()) + 1;
+  report.degenerate_faces = mesh.number_of_degenerate_faces();
+  const Analytic_surface_cost cost(mesh, tolerance);
+  auto region_of = [&](Dual_mesh::Index f) {
+    return fragments.is_given(f) ? Analytic_surface_cost::Region() : cost.region(mesh, f);
+  };
+  result.tree = Region_merging<Analytic_surface_cost>(
+                    join_faces(result.fragment_of_face, report.fragments, cost, region_of),
+                    region_boundaries(mesh, result.fragment_of_face, edge_sharpness(mesh, tolerance)), cost)
+                    .run(progress.part(0.85, 1));
+  clock.note("merging");
+  progress(1);
+  return result;
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_SMOOTHED_FACE_NORMALS_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_SMOOTHED_FACE_NORMALS_H
+
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/mesh/Face_diffusion.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <algorithm>
+
+namespace RW_segmentation::internal {
+
+inline void require_smoothing_numbers(const Normal_smoothing& smoothing) {
+  if (!(smoothing.radius >= 0) || !std::isfinite(smoothing.radius))
+    throw argument_error("radius", smoothing.radius, "a finite number >= 0");
+  if (!(smoothing.noise_angle > 0)) throw argument_error("noise_angle", smoothing.noise_angle, "positive");
+  if (!(smoothing.largest_widening >= 1) || !std::isfinite(smoothing.largest_widening))
+    throw argument_error("largest_widening", smoothing.largest_widening, "a finite number >= 1");
+  if (!(smoothing.heavy_noise > 0)) throw argument_error("heavy_noise", smoothing.heavy_noise, "positive");
+}
+
+/// Unit vectors; the face's own where nothing is left, on parts much smaller than the smoothing length.
+inline std::vector<Eigen::Vector3d> normalised(const std::vector<Eigen::Vector3d>& vectors,
+                                               const std::vector<Eigen::Vector3d>& own) {
+  std::vector<Eigen::Vector3d> result(vectors.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double length = vectors[i].norm();
+    result[i] = length > 1e-3 ? Eigen::Vector3d(vectors[i] / length) : own[i];
+  }
+  return result;
+}
+
+/// The median of |Ni - N0i|, the upper one of two.
+inline double median_turn(const std::vector<Eigen::Vector3d>& normals, const std::vector<Eigen::Vector3d>& own) {
+  std::vector<double> turn(own.size());
+  for (std::size_t i = 0; i < turn.size(); ++i) turn[i] = (normals[i] - own[i]).squaredNorm();
+  const auto middle = turn.begin() + static_cast<std::ptrdiff_t>(turn.size() / 2);
+  std::nth_element(turn.begin(), middle, turn.end());
+  return std::sqrt(*middle);
+}
+
+/// The faces' own normals diffused to a radius.
+struct Diffused_normals {
+  std::vector<Eigen::Vector3d> vector;  ///< as the diffusion leaves them
+  std::vector<Eigen::Vector3d> unit;
+  double turn;  ///< the median of the angles between `unit` and the faces' own
+};
+
+/// \param start for the iteration
+inline Diffused_normals diffused_normals(const Dual_mesh& mesh, double radius, std::vector<Eigen::Vector3d> start,
+                                         const Progress& progress) {
+  // Of the directions, in radians. On the 190 meshes of the tuning half of the Princeton benchmark, 99.3 % of the faces
+  // get the label that they get by an exact solution, as with 1e-5; with 1e-3 it is 96 %.
+  constexpr double tolerance = 1e-4;
+  constexpr double widest = 100;  // by then all faces of a component share one direction
+  radius = std::min(radius, widest);
+  Face_diffusion(mesh, radius * radius * mesh.total_area()).solve(mesh.normals(), start, tolerance, progress);
+  std::vector<Eigen::Vector3d> unit = normalised(start, mesh.normals());
+  const double turn = median_turn(unit, mesh.normals());
+  return {std::move(start), std::move(unit), turn};
+}
+
+/// The unit normals, diffused once more to a larger radius if they have noise.
+inline std::vector<Eigen::Vector3d> widened(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
+                                            Diffused_normals normals, const Progress& progress) {
+  const double widening = std::min(smoothing.largest_widening, normals.turn / smoothing.noise_angle);
+  if (widening > 1.1)
+    normals = diffused_normals(mesh, widening * smoothing.radius, std::move(normals.vector), progress);
+  progress(1);
+  return std::move(normals.unit);
+}
+
+/// Whether there is nothing to smooth.
+inline bool keeps_normals(const Dual_mesh& mesh, const Normal_smoothing& smoothing) {
+  return smoothing.radius == 0 || mesh.number_of_degenerate_faces() == mesh.number_of_faces();
+}
+
+RW_SEGMENTATION_INLINE std::vector<Eigen::Vector3d> smooth_normals(const Dual_mesh& mesh,
+                                                                   const Normal_smoothing& smoothing,
+                                                                   const Progress& progress) {
+  require_smoothing_numbers(smoothing);
+  if (keeps_normals(mesh, smoothing)) return mesh.normals();
+  return widened(mesh, smoothing, diffused_normals(mesh, smoothing.radius, mesh.normals(), progress.part(0, 0.5)),
+                 progress.part(0.5, 1));
+}
+
+/// The points of the vertices, each of them off the border moved half-way to the mean of its neighbours, several times,
+/// all at once.
+inline std::vector<Eigen::Vector3d> smoothed_points(const Dual_mesh& mesh, int steps) {
+  using Index = Dual_mesh::Index;
+  std::vector<Eigen::Vector3d> point = mesh.points(), sum(point.size());
+  std::vector<std::size_t> degree(point.size(), 0), faces(point.size(), 0);
+  for (Index e = 0; e < mesh.number_of_edges(); ++e)
+    for (const Index v : mesh.ends(e)) ++degree[v];
+  for (Index f = 0; f < mesh.number_of_faces(); ++f)
+    for (const Index v : mesh.corners(f)) ++faces[v];
+  for (int step = 0; step < steps; ++step) {
+    std::fill(sum.begin(), sum.end(), Eigen::Vector3d::Zero());
+    for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+      const auto [a, b] = mesh.ends(e);
+      sum[a] += point[b];
+      sum[b] += point[a];
+    }
+    for (std::size_t v = 0; v < point.size(); ++v) {
+      const bool is_on_border = degree[v] != faces[v];
+      if (!is_on_border) point[v] = (point[v] + sum[v] / static_cast<double>(degree[v])) / 2;
+    }
+  }
+  return point;
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
+                                          const Progress& progress) {
+  // Half as many leave noise of 0.3 % of the diagonal with 0.5 % more error on the Princeton benchmark, twice as many
+  // change nothing.
+  constexpr int vertex_steps = 4;
+
+  require_smoothing_numbers(smoothing);
+  if (keeps_normals(mesh, smoothing)) return mesh;
+  Diffused_normals normals = diffused_normals(mesh, smoothing.radius, mesh.normals(), progress.part(0, 0.4));
+  if (!(normals.turn / smoothing.noise_angle > smoothing.heavy_noise))
+    return mesh.with_shape_normals(widened(mesh, smoothing, std::move(normals), progress.part(0.6, 1)));
+  const Dual_mesh smoother = mesh.with_points(smoothed_points(mesh, vertex_steps));
+  normals = diffused_normals(smoother, smoothing.radius, std::move(normals.vector), progress.part(0.4, 0.6));
+  return smoother.with_shape_normals(widened(smoother, smoothing, std::move(normals), progress.part(0.6, 1)));
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_TRANSFER_SEGMENTS_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TRANSFER_SEGMENTS_H
+
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/rank_labels.h>
+#include <RW_segmentation/internal/walk/settle_band.h>
+#include <RW_segmentation/transfer_segments.h>
+
+#include <algorithm>
+
+namespace RW_segmentation::internal {
+
+/// The triangles of a mesh in the coordinates of another one's unit box.
+inline std::vector<Fan_triangle> triangles_in_frame(const Dual_mesh& mesh, const Dual_mesh& frame) {
+  std::vector<Fan_triangle> triangles = fan_triangles(mesh);
+  const double scale = mesh.unit() / frame.unit();
+  const Eigen::Vector3d shift = (mesh.origin() - frame.origin()) / frame.unit();
+  for (Fan_triangle& triangle : triangles) {
+    triangle.corner = scale * triangle.corner + shift;
+    triangle.first_side *= scale;
+    triangle.second_side *= scale;
+  }
+  return triangles;
+}
+
+/// For each face the one of the reduced mesh that is closest to its centroid and looks the same way; the closest of all
+/// where none does.
+inline std::vector<Dual_mesh::Index> closest_faces(const Dual_mesh& mesh, const Triangle_tree& reduced) {
+  std::vector<Dual_mesh::Index> closest(mesh.number_of_faces());
+  parallel_stretches(closest.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      auto found = reduced.closest_face(mesh.centroids()[f], mesh.normals()[f]);
+      if (!found) found = reduced.closest_face(mesh.centroids()[f], Eigen::Vector3d::Zero());
+      if (!found) throw std::invalid_argument("the reduced mesh has no face with an area");
+      closest[f] = *found;
+    }
+  });
+  return closest;
+}
+
+/// Connected regions of faces with one label.
+inline Components regions_of(const Dual_mesh& mesh, const std::vector<std::size_t>& labels) {
+  return {mesh.graph(), [&](Dual_mesh::Index e) {
+            const auto [f, g] = mesh.graph().faces_of(e);
+            return labels[f] == labels[g] && !mesh.is_wall(e);
+          }};
+}
+
+/// How many regions each label has.
+inline std::map<std::size_t, std::size_t> regions_of_labels(const Components& regions,
+                                                            const std::vector<std::size_t>& labels) {
+  std::map<std::size_t, std::size_t> count;
+  std::vector<char> is_counted(regions.count, false);
+  for (std::size_t f = 0; f < labels.size(); ++f)
+    if (!std::exchange(is_counted[regions.of[f]], true)) ++count[labels[f]];
+  return count;
+}
+
+/// Marks the faces of all regions but the largest ones of each label, of which there are as many as `expected`.
+inline std::vector<char> faces_of_spurious_regions(const Components& regions, const std::vector<double>& area,
+                                                   const std::vector<std::size_t>& labels,
+                                                   std::map<std::size_t, std::size_t> expected) {
+  struct Region {
+    double area;
+    std::size_t label, number;
+  };
+  std::vector<Region> by_size(regions.count);
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    Region& region = by_size[regions.of[f]];
+    region = {region.area + area[f], labels[f], regions.of[f]};
+  }
+  std::stable_sort(by_size.begin(), by_size.end(), [](const Region& a, const Region& b) { return a.area > b.area; });
+  std::vector<char> is_spurious(regions.count, false);
+  for (const Region& region : by_size) {
+    std::size_t& left = expected[region.label];
+    is_spurious[region.number] = left == 0;
+    if (left > 0) --left;
+  }
+  std::vector<char> result;
+  for (const auto region : regions.of) result.push_back(is_spurious[region]);
+  return result;
+}
+
+/// For each label whose faces all lie in the band, the one that is deepest in its segment: last in the order in which
+/// the band was reached.
+inline std::vector<Dual_mesh::Index> cores_within(const std::vector<Dual_mesh::Index>& band,
+                                                  const std::vector<char>& is_in_band,
+                                                  const std::vector<std::size_t>& labels) {
+  std::map<std::size_t, Dual_mesh::Index> deepest;
+  for (const auto face : band) deepest[labels[face]] = face;
+  for (std::size_t f = 0; f < labels.size(); ++f)
+    if (!is_in_band[f]) deepest.erase(labels[f]);
+  std::vector<Dual_mesh::Index> cores;
+  for (const auto& [label, face] : deepest) cores.push_back(face);
+  return cores;
+}
+
+RW_SEGMENTATION_INLINE std::vector<std::size_t> transferred(const Dual_mesh& reduced,
+                                                            const std::vector<std::size_t>& reduced_ids,
+                                                            const Dual_mesh& mesh,
+                                                            const std::vector<double>& conductances, std::size_t band,
+                                                            const Progress& progress) {
+  std::vector<std::size_t> reduced_labels;  // any number may be an id
+  const std::vector<std::size_t> id_of_label = rank_labels(reduced_ids, reduced_labels);
+  const Triangle_tree tree(triangles_in_frame(reduced, mesh));
+  std::vector<std::size_t> labels;
+  labels.reserve(mesh.number_of_faces());
+  for (const auto closest : closest_faces(mesh, tree)) labels.push_back(reduced_labels[closest]);
+  progress(0.5);
+  if (band > 0) {
+    const std::vector<Dual_mesh::Index> along = band_along_boundaries(mesh.graph(), labels, band);
+    std::vector<char> is_in_band =
+        faces_of_spurious_regions(regions_of(mesh, labels), mesh.areas(), labels,
+                                  regions_of_labels(regions_of(reduced, reduced_labels), reduced_labels));
+    for (const auto face : along) is_in_band[face] = true;
+    settle_band(mesh.graph(), conductances, is_in_band, cores_within(along, is_in_band, labels), labels,
+                progress.part(0.5, 1));
+  }
+  progress(1);
+  for (std::size_t& label : labels) label = id_of_label[label];
+  return labels;
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_WALK_ANY_WALK_SOLVER_H
+#define RW_SEGMENTATION_INTERNAL_WALK_ANY_WALK_SOLVER_H
+
+#include <RW_segmentation/Dual_graph.h>
+#include <RW_segmentation/Potentials.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Star_mesh_elimination.h>
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+template <class T, class = void>
+struct Is_walk_solver : std::false_type {};
+template <class T>
+struct Is_walk_solver<
+    T,
+    std::void_t<
+        decltype(std::declval<T&>().analyze(std::declval<const Dual_graph&>())),
+        decltype(std::declval<T&>().factorize(std::declval<const std::vector<double>&>(),
+                                              std::declval<const std::vector<Dual_graph::Index>&>(),
+                                              std::declval<const Progress&>())),
+        decltype(std::declval<const T&>().potentials(std::declval<const Potentials&>(), std::declval<Potentials&>())),
+        decltype(std::declval<const T&>().response(Dual_graph::Index(), std::declval<const std::vector<double>&>(),
+                                                   std::declval<std::vector<double>&>())),
+        decltype(std::declval<const T&>().absorbed_currents(Dual_graph::Index()))>> : std::true_type {};
+
+/// Whether it has the functions of a `WalkSolver`.
+template <class T>
+constexpr bool is_walk_solver = Is_walk_solver<T>::value;
+
+/// A `WalkSolver` of any type, so that the walk is compiled once for all of them. A call solves for a whole mesh: that it
+/// is a virtual one costs nothing.
+class Any_walk_solver {
+ public:
+  using Index = Dual_graph::Index;
+
+  Any_walk_solver() : Any_walk_solver(Star_mesh_elimination()) {}
+
+  template <class Solver, class = std::enable_if_t<is_walk_solver<Solver>>>
+  Any_walk_solver(Solver solver)  // NOLINT(google-explicit-constructor): as a std::function takes a function
+      : solver_(std::make_unique<Model<Solver>>(std::move(solver))) {}
+
+  void analyze(const Dual_graph& graph) { solver_->analyze(graph); }
+  void factorize(const std::vector<double>& conductances, const std::vector<Index>& absorbing_faces,
+                 const Progress& progress = {}) {
+    solver_->factorize(conductances, absorbing_faces, progress);
+  }
+  void potentials(const Potentials& boundary_values, Potentials& potentials) const {
+    solver_->potentials(boundary_values, potentials);
+  }
+  void response(Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const {
+    solver_->response(face, boundary_values, column);
+  }
+  std::vector<double> absorbed_currents(Index face) const { return solver_->absorbed_currents(face); }
+
+ private:
+  struct Concept {
+    Concept() = default;
+    Concept(const Concept&) = delete;
+    Concept& operator=(const Concept&) = delete;
+    virtual ~Concept() = default;
+    virtual void analyze(const Dual_graph&) = 0;
+    virtual void factorize(const std::vector<double>&, const std::vector<Index>&, const Progress&) = 0;
+    virtual void potentials(const Potentials&, Potentials&) const = 0;
+    virtual void response(Index, const std::vector<double>&, std::vector<double>&) const = 0;
+    virtual std::vector<double> absorbed_currents(Index) const = 0;
+  };
+
+  template <class Solver>
+  struct Model final : Concept {
+    explicit Model(Solver solver) : solver(std::move(solver)) {}
+    void analyze(const Dual_graph& graph) override { solver.analyze(graph); }
+    void factorize(const std::vector<double>& conductances, const std::vector<Index>& absorbing_faces,
+                   const Progress& progress) override {
+      solver.factorize(conductances, absorbing_faces, progress);
+    }
+    void potentials(const Potentials& boundary_values, Potentials& potentials) const override {
+      solver.potentials(boundary_values, potentials);
+    }
+    void response(Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const override {
+      solver.response(face, boundary_values, column);
+    }
+    std::vector<double> absorbed_currents(Index face) const override { return solver.absorbed_currents(face); }
+    Solver solver;
+  };
+
+  std::unique_ptr<Concept> solver_;
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif
