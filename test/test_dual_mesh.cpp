@@ -349,6 +349,30 @@ TYPED_TEST(DualMesh, HasTheWallsThatAMapMarks) {
   EXPECT_EQ(internal::Components(dual.graph(), [&](Index e) { return !dual.is_wall(e); }).count, 6u);
 }
 
+TYPED_TEST(DualMesh, WithoutPointsHasTheSameGraphAndWalls) {
+  using Mesh = typename TypeParam::Mesh;
+  const TypeParam held(meshes::torus(3, 1, 12, 8));
+  const Dual_mesh_of whole(held.mesh);
+  std::vector<Edge_of<Mesh>> marked;
+  for (Index e = 0; e < whole.number_of_edges(); e += 3) marked.push_back(whole.edge(e));
+  for (const auto& walls : {marked, std::vector<Edge_of<Mesh>>()}) {
+    const auto is_marked = boost::make_function_property_map<Edge_of<Mesh>>(
+        [&](const Edge_of<Mesh>& e) -> bool { return std::find(walls.begin(), walls.end(), e) != walls.end(); });
+    const auto np = CGAL::parameters::edge_is_constrained_map(is_marked);
+    const auto without = Dual_mesh_of<Mesh>::without_points(held.mesh, np);
+    const Dual_mesh_of with(held.mesh, np);
+    EXPECT_EQ(without.has_walls(), !walls.empty());
+    EXPECT_EQ(with.has_walls(), !walls.empty());
+    EXPECT_TRUE(without.face_descriptors() == with.face_descriptors());
+    EXPECT_EQ(without.number_of_vertices(), 0u);
+    ASSERT_EQ(without.number_of_edges(), with.number_of_edges());
+    for (Index e = 0; e < with.number_of_edges(); ++e) {
+      EXPECT_EQ(without.graph().faces_of(e), with.graph().faces_of(e));
+      EXPECT_EQ(without.is_wall(e), with.is_wall(e));
+    }
+  }
+}
+
 TEST(DualMeshOf, KnowsNoFaceThatIsRemovedOrHidden) {
   meshes::With_removed_faces held(meshes::cube(1));
   const Dual_mesh_of dual(held.mesh);

@@ -117,15 +117,6 @@ Conductance_map<EdgeMap> as_conductance(const EdgeMap& values) {
   return Conductance_map<EdgeMap>(values);
 }
 
-namespace internal {
-
-template <class T, class = void>
-struct Is_conductance : std::false_type {};
-template <class T>
-struct Is_conductance<T, std::void_t<typename T::is_conductance>> : std::true_type {};
-
-}  // namespace internal
-
 }  // namespace RW_segmentation
 
 #ifndef RW_SEGMENTATION_COMPILED

@@ -326,6 +326,18 @@ class Dual_mesh_of : public Dual_mesh {
   explicit Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np = CGAL::parameters::default_values())
       : Dual_mesh_of(mesh, np, std::make_shared<internal::Descriptors<FaceListGraph>>()) {}
 
+  /// Reads the graph and the walls alone, for stages that measure nothing: there are no corners, points or normals.
+  /// \param np as above
+  template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+  static Dual_mesh_of without_points(const FaceListGraph& mesh,
+                                     const NamedParameters& np = CGAL::parameters::default_values()) {
+    const auto descriptors = std::make_shared<internal::Descriptors<FaceListGraph>>();
+    Arrays arrays;
+    arrays.graph = descriptors->read(mesh);
+    arrays.is_wall = walls_of(np, *descriptors);
+    return {std::move(arrays), mesh, descriptors};
+  }
+
   /// A dual mesh with the same graph as another one, and that one's descriptors.
   Dual_mesh_of(Dual_mesh mesh, const Dual_mesh_of& other)
       : Dual_mesh(std::move(mesh)), mesh_(other.mesh_), descriptors_(other.descriptors_) {}
@@ -416,28 +428,43 @@ class Dual_mesh_of : public Dual_mesh {
   }
 
  private:
-  template <class NamedParameters>
-  Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np,
-               const std::shared_ptr<internal::Descriptors<FaceListGraph>>& descriptors)
-      : Dual_mesh(arrays_of(mesh, np, *descriptors)), mesh_(&mesh), descriptors_(descriptors) {}
+  using Descriptors = internal::Descriptors<FaceListGraph>;
+
+  Dual_mesh_of(Arrays arrays, const FaceListGraph& mesh, std::shared_ptr<const Descriptors> descriptors)
+      : Dual_mesh(std::move(arrays)), mesh_(&mesh), descriptors_(std::move(descriptors)) {}
 
   template <class NamedParameters>
-  static Arrays arrays_of(const FaceListGraph& mesh, const NamedParameters& np,
-                          internal::Descriptors<FaceListGraph>& descriptors) {
+  Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np, const std::shared_ptr<Descriptors>& descriptors)
+      : Dual_mesh_of(arrays_of(mesh, np, *descriptors), mesh, descriptors) {}
+
+  template <class NamedParameters>
+  static Arrays arrays_of(const FaceListGraph& mesh, const NamedParameters& np, Descriptors& descriptors) {
     Arrays arrays;
     arrays.graph = descriptors.read(mesh);
     internal::read_vertices(mesh, descriptors, np, arrays);
-    if constexpr (internal::has_parameter<NamedParameters, internal::Edge_is_constrained>) {
-      const auto walls = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
-      arrays.is_wall.reserve(descriptors.edge_descriptors.size());
-      for (const edge_descriptor e : descriptors.edge_descriptors)
-        arrays.is_wall.push_back(static_cast<bool>(get(walls, e)));
-    }
+    arrays.is_wall = walls_of(np, descriptors);
     return arrays;
   }
 
+  /// By edge; empty if no edge is one.
+  template <class NamedParameters>
+  static std::vector<char> walls_of(const NamedParameters& np, const Descriptors& descriptors) {
+    std::vector<char> is_wall;
+    if constexpr (internal::has_parameter<NamedParameters, internal::Edge_is_constrained>) {
+      const auto walls = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
+      is_wall.reserve(descriptors.edge_descriptors.size());
+      bool is_any = false;
+      for (const edge_descriptor e : descriptors.edge_descriptors) {
+        is_wall.push_back(static_cast<bool>(get(walls, e)));
+        is_any |= is_wall.back() != 0;
+      }
+      if (!is_any) is_wall.clear();
+    }
+    return is_wall;
+  }
+
   const FaceListGraph* mesh_;
-  std::shared_ptr<const internal::Descriptors<FaceListGraph>> descriptors_;
+  std::shared_ptr<const Descriptors> descriptors_;
 };
 
 namespace internal {
@@ -454,6 +481,17 @@ const Dual_mesh_of<FaceListGraph>& dual_mesh(const Dual_mesh_of<FaceListGraph>& 
   static_assert(!has_parameter<NamedParameters, Vertex_point> && !has_parameter<NamedParameters, Edge_is_constrained>,
                 "A Dual_mesh_of has its points and constrained edges: give them to its constructor.");
   return mesh;
+}
+
+/// What a function that measures nothing begins with.
+template <class FaceListGraph, class NamedParameters>
+Dual_mesh_of<FaceListGraph> dual_mesh_without_points(const FaceListGraph& mesh, const NamedParameters& np) {
+  return Dual_mesh_of<FaceListGraph>::without_points(mesh, np);
+}
+template <class FaceListGraph, class NamedParameters>
+const Dual_mesh_of<FaceListGraph>& dual_mesh_without_points(const Dual_mesh_of<FaceListGraph>& mesh,
+                                                            const NamedParameters& np) {
+  return dual_mesh(mesh, np);
 }
 
 /// The type of mesh that a function was given, or that was read into the `Dual_mesh_of` that it was given.

@@ -13,11 +13,13 @@
 #include <RW_segmentation/internal/walk/read_conductances.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -77,16 +79,17 @@ class Random_walk {
   /// - `callback`: `std::function<bool(double)>`, told the progress of a long solve; `false` ends it with `Cancelled`.
   /// - `edge_is_constrained_map` (default: no edge is): the walls.
   /// - `vertex_point_map` (default: that of the mesh): tells degenerate faces, see `report()`.
-  /// \throws std::invalid_argument if a conductance is negative or not finite, or a coordinate is not finite
+  /// \throws std::invalid_argument if a conductance is negative or not finite
   /// \throws std::length_error if the mesh has 2^32 - 1 faces or more
   template <class Mesh, class ConductanceMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
   Random_walk(const Mesh& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
               const NamedParameters& np = CGAL::parameters::default_values())
-      : mesh_(internal::dual_mesh(mesh, np)),
+      : mesh_(internal::dual_mesh_without_points(mesh, np)),
         walk_(mesh_.graph(), internal::read_conductances(mesh_, conductance),
               internal::Any_walk_solver(std::move(solver)), internal::progress_of(np)),
         faces_at_start_(num_faces(mesh_.mesh())),
-        edges_at_start_(num_edges(mesh_.mesh())) {
+        edges_at_start_(num_edges(mesh_.mesh())),
+        count_degenerate_faces_(degenerate_faces_of(mesh, np)) {
     static_assert(internal::has_conductances<ConductanceMap>,
                   "Random_walk needs conductances: Conductance(mesh, difference), or as_conductance(map) for values of "
                   "your own.");
@@ -168,14 +171,30 @@ class Random_walk {
     mesh_.write_faces(walk_.potential(label), probabilities);
   }
 
-  /// What the mesh has and the last answer met that is odd but not wrong.
+  /// What the mesh has and the last answer met that is odd but not wrong. Looks at each face of the mesh.
+  /// \throws std::invalid_argument if a coordinate is not finite
   Walk_report report() const {
     Walk_report report = walk_.report();
-    report.degenerate_faces = mesh_.number_of_degenerate_faces();
+    report.degenerate_faces = count_degenerate_faces_();
     return report;
   }
 
  private:
+  template <class NamedParameters>
+  static std::function<std::size_t()> degenerate_faces_of(const FaceListGraph& mesh, const NamedParameters& np) {
+    const auto points =
+        CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
+                                           CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+    return [points, &mesh] {
+      return Dual_mesh_of(mesh, CGAL::parameters::vertex_point_map(points)).number_of_degenerate_faces();
+    };
+  }
+  template <class NamedParameters>
+  static std::function<std::size_t()> degenerate_faces_of(const Dual_mesh_of<FaceListGraph>& mesh,
+                                                          const NamedParameters&) {
+    return [count = mesh.number_of_degenerate_faces()] { return count; };
+  }
+
   /// \param role what the face is called in the error
   Dual_mesh::Index index(face_descriptor face, const char* role) const {
     if (!has_face(face)) throw std::invalid_argument(std::string("the ") + role + " is not a face of the mesh");
@@ -217,6 +236,7 @@ class Random_walk {
   Dual_mesh_of<FaceListGraph> mesh_;  // its graph stays where the walk refers to it
   internal::Graph_walk walk_;
   std::size_t faces_at_start_, edges_at_start_;
+  std::function<std::size_t()> count_degenerate_faces_;
 };
 
 /// The type of mesh, and the solver unless named parameters stand in its place.
