@@ -5,6 +5,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/mesh/Face_diffusion.h>
+#include <RW_segmentation/internal/mesh/smoothed_points.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+#include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/walk/spurious_regions.h>
 #include <RW_segmentation/transfer_segments.h>
 
 #include <RW_segmentation/Conductance.h>

@@ -1,5 +1,6 @@
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
+#include <RW_segmentation/internal/solver/Elimination_plan.h>
 #include <RW_segmentation/internal/walk/make_solver.h>
 #ifdef RW_SEGMENTATION_WITH_CHOLMOD
 #include <Eigen/CholmodSupport>

@@ -6,6 +6,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/mesh/Face_diffusion.h>
+#include <RW_segmentation/internal/mesh/smoothed_points.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <algorithm>
@@ -84,31 +85,6 @@ RW_SEGMENTATION_INLINE std::vector<Eigen::Vector3d> smooth_normals(const Dual_me
   if (keeps_normals(mesh, smoothing)) return mesh.normals();
   return widened(mesh, smoothing, diffused_normals(mesh, smoothing.radius, mesh.normals(), progress.part(0, 0.5)),
                  progress.part(0.5, 1));
-}
-
-/// The points of the vertices, each of them off the border moved half-way to the mean of its neighbours, several times,
-/// all at once.
-inline std::vector<Eigen::Vector3d> smoothed_points(const Dual_mesh& mesh, int steps) {
-  using Index = Dual_mesh::Index;
-  std::vector<Eigen::Vector3d> point = mesh.points(), sum(point.size());
-  std::vector<std::size_t> degree(point.size(), 0), faces(point.size(), 0);
-  for (Index e = 0; e < mesh.number_of_edges(); ++e)
-    for (const Index v : mesh.ends(e)) ++degree[v];
-  for (Index f = 0; f < mesh.number_of_faces(); ++f)
-    for (const Index v : mesh.corners(f)) ++faces[v];
-  for (int step = 0; step < steps; ++step) {
-    std::fill(sum.begin(), sum.end(), Eigen::Vector3d::Zero());
-    for (Index e = 0; e < mesh.number_of_edges(); ++e) {
-      const auto [a, b] = mesh.ends(e);
-      sum[a] += point[b];
-      sum[b] += point[a];
-    }
-    for (std::size_t v = 0; v < point.size(); ++v) {
-      const bool is_on_border = degree[v] != faces[v];
-      if (!is_on_border) point[v] = (point[v] + sum[v] / static_cast<double>(degree[v])) / 2;
-    }
-  }
-  return point;
 }
 
 RW_SEGMENTATION_INLINE Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
