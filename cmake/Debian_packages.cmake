@@ -10,9 +10,17 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librw-segmentation-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+if(NOT RW_SEGMENTATION_COMPILED)
+  set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcgal-dev (>= 5.5), libeigen3-dev (>= 3.4), libboost-dev (>= 1.72)")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Segmentation of surface meshes with random walks: headers and examples")
+
+# There is one if the library is compiled and shared.
+set(CPACK_DEBIAN_LIB_PACKAGE_NAME librw-segmentation${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(CPACK_DEBIAN_LIB_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIB_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_LIB_DESCRIPTION "Segmentation of surface meshes with random walks: the shared library")
 
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME segment-mesh)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION graphics)

@@ -29,7 +29,7 @@ class RwSegmentation(ConanFile):
             for part in ("MAJOR", "MINOR", "PATCH"))
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake/*", "examples/*", "include/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake/*", "examples/*", "include/*", "src/*"):
             copy(self, pattern, self._tree, self.export_sources_folder)
 
     def layout(self):
