@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -26,7 +25,7 @@ namespace RW_segmentation::internal {
 /// Solved by conjugate gradients for the three coordinates at once. The preconditioner is a multigrid cycle: a sweep of
 /// Gauss-Seidel forward and one backward over the faces, between them the same for aggregates of about four faces, for
 /// aggregates of those, and so on until mass outweighs diffusion. The number of iterations hardly grows with the mesh.
-/// Only the correction to a start is computed, which is why single precision will do.
+/// Single precision will do, because only the correction to a start is computed and no link is stiffer than it can tell.
 class Face_diffusion {
  public:
   /// \param mesh with a face that has an area
@@ -34,39 +33,50 @@ class Face_diffusion {
   /// Complexity: linear.
   Face_diffusion(const Dual_mesh& mesh, double time) {
     levels_.push_back(finest_level(mesh, time));
-    while (is_diffusive(levels_.back())) levels_.push_back(coarser_level(levels_.back()));
+    coarsen();
+    if (bound_links()) coarsen();
   }
 
   /// Of the faces and of aggregates of them. Each level has half as many nodes as the one before or less.
   std::size_t number_of_levels() const { return levels_.size(); }
 
   /// Improves `x` until the root of the mean square over the faces of its error, relative to the length of each vector,
-  /// is below `tolerance`.
+  /// is below `tolerance`, or as small as single precision makes it.
   /// \throws Cancelled
   void solve(const std::vector<Eigen::Vector3d>& x0, std::vector<Eigen::Vector3d>& x, double tolerance,
              const Progress& progress) {
+    constexpr int longest = 1000, longest_stall = 200;  // iterations
     const std::size_t n = x.size();
     Level& level = levels_.front();
     Block& residual = level.right;
     const Block& preconditioned = level.solution;
     set_residual(x0, x, level);
+    if (error_by_rounding() > tolerance) {  // of differences across stiff links; zero has none
+      std::fill(x.begin(), x.end(), Eigen::Vector3d::Zero());
+      set_residual(x0, x, level);
+    }
     Block correction(n, Vector::Zero()), direction(n, Vector::Zero()), image(n);
     Sums previous = Sums::Ones();
-    double first = 0;
+    double first = 0, least = std::numeric_limits<double>::infinity();
+    int last_gain = 0;
     for (int iteration = 0;; ++iteration) {
       cycle(0);
       // What the cycle would change is about the error.
       const double error = relative_change(x, correction, preconditioned);
       if (error <= tolerance) break;
       if (iteration == 0) first = error;
-      if (!(iteration < 1000) || !std::isfinite(error)) throw std::runtime_error("Face_diffusion: no convergence");
+      if (error < least) {
+        least = error;
+        last_gain = iteration;
+      }
+      if (iteration == longest || iteration - last_gain == longest_stall) break;
       progress(std::clamp(std::log(first / error) / std::log(first / tolerance), 0., 1.));
 
       const Sums energy = dot(residual, preconditioned);
-      const Vector beta = quotient(energy, previous);
+      const Vector beta = quotient(energy, previous, n);
       for (std::size_t i = 0; i < n; ++i) direction[i] = preconditioned[i] + beta.cwiseProduct(direction[i]);
       apply(level, direction, image);
-      const Vector alpha = quotient(energy, dot(direction, image));
+      const Vector alpha = quotient(energy, dot(direction, image), n);
       for (std::size_t i = 0; i < n; ++i) {
         correction[i] += alpha.cwiseProduct(direction[i]);
         residual[i] -= alpha.cwiseProduct(image[i]);
@@ -108,13 +118,21 @@ class Face_diffusion {
 
     /// Closes the row of a node, whose links are the last ones.
     void close_row(std::size_t node, float node_mass) {
-      float diagonal = node_mass;
-      for (std::size_t k = row[node]; k < links.size(); ++k) diagonal += links[k].weight;
       row[node + 1] = static_cast<Index>(links.size());
       mass[node] = node_mass;
+      sum_up_row(node);
+    }
+
+    void sum_up_row(std::size_t node) {
+      float diagonal = mass[node];
+      for (std::size_t k = row[node]; k < row[node + 1]; ++k) diagonal += links[k].weight;
       inverse_diagonal[node] = 1 / diagonal;
     }
   };
+
+  /// The largest weight of a link, relative to what it can have to carry. The values at its ends differ by less than
+  /// single precision tells then; with a heavier one, their rounding would count for more than all the rest.
+  static constexpr float stiffest = 1 / std::numeric_limits<float>::epsilon();
 
   static Level finest_level(const Dual_mesh& mesh, double time) {
     const Dual_graph& graph = mesh.graph();
@@ -124,13 +142,14 @@ class Face_diffusion {
     const double smallest_area = 1e-4 * mean_area;
     const double smallest_length = 1e-4 * std::sqrt(mean_area);
 
-    // In units of the mean area.
+    // In units of the mean area. No link carries more than the whole mesh; this keeps sums of weights finite.
+    const double heaviest = stiffest * static_cast<double>(area.size());
     std::vector<float> weight(graph.number_of_edges());
     for (std::size_t e = 0; e < weight.size(); ++e) {
       const auto [i, j] = graph.faces_of(static_cast<Index>(e));
       const double length = mesh.edge_length(static_cast<Dual_mesh::Index>(e));
       const double distance = std::max(2. / 3 * (area[i] + area[j]), smallest_area) / std::max(length, smallest_length);
-      weight[e] = static_cast<float>(time / mean_area * length / distance);
+      weight[e] = static_cast<float>(std::min(time / mean_area * length / distance, heaviest));
     }
     Level level;
     level.resize(area.size());
@@ -140,6 +159,48 @@ class Face_diffusion {
       level.close_row(i, static_cast<float>(std::max(area[i], smallest_area) / mean_area));
     }
     return level;
+  }
+
+  /// Makes the coarser levels of the finest one.
+  void coarsen() {
+    levels_.resize(1);
+    while (is_diffusive(levels_.back())) levels_.push_back(coarser_level(levels_.back()));
+  }
+
+  /// Bounds the weights of links between faces. What a link carries comes from the masses of an aggregate that holds both
+  /// of its faces or over the links that leave that, and so is no more than the aggregate's diagonal.
+  /// \returns whether a link was heavier
+  bool bound_links() {
+    std::vector<std::vector<float>> load(levels_.size());  // of an aggregate or one that holds it, the least
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t depth = levels_.size(); depth-- > 1;) {
+      const Level& level = levels_[depth];
+      load[depth].resize(level.size());
+      for (std::size_t i = 0; i < level.size(); ++i) {
+        load[depth][i] = 1 / level.inverse_diagonal[i];
+        if (depth + 1 < levels_.size()) load[depth][i] = std::min(load[depth][i], load[depth + 1][level.aggregate[i]]);
+        least = std::min(least, load[depth][i]);
+      }
+    }
+
+    bool is_bounded = false;
+    Level& faces = levels_.front();
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (std::size_t k = faces.row[i]; k < faces.row[i + 1]; ++k) {
+        auto& [to, weight] = faces.links[k];
+        if (!(weight > stiffest * least)) continue;
+        std::size_t a = i, b = to, depth = 0;
+        for (; a != b && depth + 1 < levels_.size(); ++depth) {
+          a = levels_[depth].aggregate[a];
+          b = levels_[depth].aggregate[b];
+        }
+        if (a != b || !(weight > stiffest * load[depth][a])) continue;
+        weight = stiffest * load[depth][a];
+        is_bounded = true;
+      }
+      if (is_bounded) faces.sum_up_row(i);
+    }
+    return is_bounded;
   }
 
   /// Whether two sweeps would leave much undone on some part of the mesh, however small.
@@ -236,6 +297,34 @@ class Face_diffusion {
     }
   }
 
+  /// By how much the rounding of the right side to single precision may change the solution, as a root mean square over
+  /// the faces: that of an aggregate by the rounding of all its faces over its diagonal, on the level where this is worst.
+  double error_by_rounding() const {
+    struct Share {
+      double squares, faces;
+    };
+    const Block& right = levels_.front().right;
+    std::vector<Share> shares;
+    shares.reserve(right.size());
+    for (const Vector& value : right) shares.push_back({value.squaredNorm(), 1});
+    double worst = 0;
+    for (std::size_t depth = 0;; ++depth) {
+      const Level& level = levels_[depth];
+      double sum = 0;
+      for (std::size_t i = 0; i < level.size(); ++i)
+        sum += shares[i].faces * shares[i].squares * level.inverse_diagonal[i] * level.inverse_diagonal[i];
+      worst = std::max(worst, sum);
+      if (depth + 1 == levels_.size()) break;
+      std::vector<Share> of_aggregates(levels_[depth + 1].size(), {0, 0});
+      for (std::size_t i = 0; i < level.size(); ++i) {
+        of_aggregates[level.aggregate[i]].squares += shares[i].squares;
+        of_aggregates[level.aggregate[i]].faces += shares[i].faces;
+      }
+      shares = std::move(of_aggregates);
+    }
+    return std::numeric_limits<float>::epsilon() / 2 * std::sqrt(worst / static_cast<double>(right.size()));
+  }
+
   /// `y` = (diag(A) + t Lap) `x`, by differences, so that no stiff link cancels what the others say.
   static void apply(const Level& level, const Block& x, Block& y) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -296,9 +385,12 @@ class Face_diffusion {
     return total;
   }
 
-  /// 0 for a coordinate that is solved exactly.
-  static Vector quotient(const Sums& numerator, const Sums& denominator) {
-    return (denominator > 0).select(numerator / denominator, 0).matrix().cast<float>();
+  /// 0 for a coordinate that is solved exactly, or so well that products of numbers in single precision are too small to
+  /// have digits: steps by such quotients lead away.
+  /// \param denominator sums of `terms` products
+  static Vector quotient(const Sums& numerator, const Sums& denominator, std::size_t terms) {
+    const double smallest = 16. * std::numeric_limits<float>::denorm_min() * static_cast<double>(terms);
+    return (denominator > smallest).select(numerator / denominator, 0).matrix().cast<float>();
   }
 
   std::vector<Level> levels_;
