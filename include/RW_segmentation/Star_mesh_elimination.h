@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation {
@@ -48,7 +49,10 @@ class Star_mesh_elimination {
   /// A copy is a fresh solver: it has analysed nothing.
   Star_mesh_elimination(const Star_mesh_elimination&) : Star_mesh_elimination() {}
   /// Becomes a fresh solver.
-  Star_mesh_elimination& operator=(const Star_mesh_elimination&) { return *this = Star_mesh_elimination(); }
+  Star_mesh_elimination& operator=(const Star_mesh_elimination& other) {
+    Star_mesh_elimination fresh(other);
+    return *this = std::move(fresh);
+  }
 
   /// Orders the elimination. Depends on the mesh only.
   /// \throws std::length_error for more faces than the ordering can number (about 2.5e8)
