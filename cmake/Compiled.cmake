@@ -9,10 +9,11 @@ target_link_libraries(RW_segmentation_compiled PUBLIC RW_segmentation)
 target_compile_definitions(RW_segmentation_compiled PUBLIC RW_SEGMENTATION_COMPILED)
 set(RW_SEGMENTATION_COMPILED_OPTIONS "" CACHE STRING "Options of the compiler for RW_segmentation::compiled alone")
 target_compile_options(RW_segmentation_compiled PRIVATE ${RW_SEGMENTATION_COMPILED_OPTIONS})
-if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)  # nothing but our own names, of a version
+if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+  # It exports its own names alone, of a version, and calls its own functions, however a program compiled the same ones.
   configure_file(${PROJECT_SOURCE_DIR}/cmake/RW_segmentation.map.in ${PROJECT_BINARY_DIR}/RW_segmentation.map @ONLY)
   target_link_options(RW_segmentation_compiled PRIVATE
-    LINKER:--version-script=${PROJECT_BINARY_DIR}/RW_segmentation.map)
+    LINKER:-Bsymbolic-functions,--version-script=${PROJECT_BINARY_DIR}/RW_segmentation.map)
 endif()
 if(NOT RW_SEGMENTATION_COMPILED)
   set_target_properties(RW_segmentation_compiled PROPERTIES EXCLUDE_FROM_ALL ON)

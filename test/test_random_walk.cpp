@@ -206,7 +206,8 @@ TEST(RandomWalk, CountsFacesWithoutArea) {
   mesh.point(mesh.source(h)) = CGAL::midpoint(mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
   const Random_walk walk(mesh, equal_conductances<meshes::Surface_mesh>());
   EXPECT_EQ(walk.report().degenerate_faces, 1u);
-  const Random_walk walk_on_dual(RW_segmentation::Dual_mesh_of(mesh), equal_conductances<meshes::Surface_mesh>());
+  const RW_segmentation::Dual_mesh_of dual(mesh);
+  const Random_walk walk_on_dual(dual, equal_conductances<meshes::Surface_mesh>());
   EXPECT_EQ(walk_on_dual.report().degenerate_faces, 1u);
 }
 
