@@ -88,7 +88,8 @@ class Particles {
   static constexpr double wanted_energy = 0.8;
 
   static double energy(double squared_distance, double radius) {
-    return std::exp(-squared_distance / (2 * radius * radius));
+    if (squared_distance == 0) return 1;  // also of particles without a radius, on a mesh without area
+    return radius > 0 ? std::exp(-squared_distance / (2 * radius * radius)) : 0;
   }
 
   static Tree_point tree_point(const Point& p) {
