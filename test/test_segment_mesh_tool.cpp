@@ -935,7 +935,8 @@ TEST_F(Segment_mesh_tool, AnObjFileHasAGroupAndAMaterialForEachSegment) {
     ++faces_of_group[group];
   }
   const std::string materials = content_of(path("out.mtl"));
-  for (const auto& segment : nlohmann::json::parse(content_of(path("r.json")))["segments"]) {
+  const nlohmann::json report = nlohmann::json::parse(content_of(path("r.json")));
+  for (const auto& segment : report["segments"]) {
     const std::string name = "segment_" + std::to_string(segment["label"].get<int>());
     EXPECT_EQ(faces_of_group[name], 9U) << name;
     std::istringstream entry(materials.substr(std::min(materials.size(), materials.find("newmtl " + name + "\nKd "))));
@@ -1302,6 +1303,11 @@ TEST_F(Segment_mesh_tool, LimitsAreCheckedBeforeAnythingIsDone) {
     expect_failure(1, "--max-memory", {"strip.off", "--seed", "0", "--labels", "l.seg", "--max-memory", size});
 }
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as g++ says it
+#endif
+#endif
 #ifndef __SANITIZE_ADDRESS__  // which needs all the memory that there is
 
 TEST_F(Segment_mesh_tool, AMeshThatNeedsMoreMemoryIsGivenUpAndTheNextOneDone) {
