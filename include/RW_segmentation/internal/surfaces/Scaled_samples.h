@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,10 +26,11 @@ class Scaled_samples {
 
   /// Keeps a reference to the samples.
   explicit Scaled_samples(const Surface_samples& samples) : samples_(samples) {
+    const auto count = static_cast<double>(std::max<std::size_t>(samples.points.size(), 1));
     for (const Eigen::Vector3d& p : samples.points) mean_ += p;
-    mean_ /= static_cast<double>(samples.points.size());
+    mean_ /= count;
     for (const Eigen::Vector3d& p : samples.points) covariance_ += (p - mean_) * (p - mean_).transpose();
-    spread_ = std::sqrt(covariance_.trace() / static_cast<double>(samples.points.size()));
+    spread_ = std::sqrt(covariance_.trace() / count);
   }
 
   const std::vector<Eigen::Vector3d>& points() const { return samples_.points; }
