@@ -5,9 +5,9 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Argument_error.h>
-#include <RW_segmentation/internal/mesh/Descriptor_index.h>
 #include <RW_segmentation/internal/mesh/Face_corners.h>
 #include <RW_segmentation/internal/mesh/Face_geometry.h>
+#include <RW_segmentation/internal/mesh/Mesh_reading.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/unit_vector.h>
@@ -22,9 +22,11 @@
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -142,149 +144,31 @@ class Dual_mesh {
 
 namespace internal {
 
-/// The faces on both sides of a mesh edge, that of `halfedge(edge, mesh)` first; null where the mesh ends.
-template <class FaceListGraph>
-auto faces_beside(typename boost::graph_traits<FaceListGraph>::edge_descriptor edge, const FaceListGraph& mesh) {
-  const auto h = halfedge(edge, mesh);
-  return std::make_pair(face(h, mesh), face(opposite(h, mesh), mesh));
+/// The place of a descriptor in a range.
+template <class Range, class Descriptor>
+std::size_t place_in(const Range& range, const Descriptor& descriptor) {
+  return static_cast<std::size_t>(std::distance(range.begin(), std::find(range.begin(), range.end(), descriptor)));
 }
 
-/// The descriptors of a mesh by their numbers, and back.
-///
-/// Faces are numbered breadth-first from the first one of each component, edges by the lower one of their faces: what
-/// passes over a large mesh finds most of what it needs in the cache, whatever the order of the mesh.
-template <class FaceListGraph>
-struct Descriptors {
-  using Index = Dual_graph::Index;
-  using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
-  using edge_descriptor = typename boost::graph_traits<FaceListGraph>::edge_descriptor;
-
-  std::vector<face_descriptor> face_descriptors;
-  std::vector<edge_descriptor> edge_descriptors;
-  std::vector<Index> place;  ///< by face: in the order of `faces(mesh)`
-  Descriptor_index<face_descriptor> index;
-
-  /// Reads the mesh.
-  /// \returns its graph
-  Dual_graph read(const FaceListGraph& mesh) {
-    const Dual_graph unordered = read_in_order_of_mesh(mesh);
-    return renumber(unordered, breadth_first_order(unordered));
-  }
-
- private:
-  Dual_graph read_in_order_of_mesh(const FaceListGraph& mesh) {
-    check_number(num_faces(mesh), "faces");
-    check_number(2 * std::size_t(num_edges(mesh)), "halfedges");
-    const auto null_face = boost::graph_traits<FaceListGraph>::null_face();
-    face_descriptors.reserve(num_faces(mesh));
-    index.reserve(num_faces(mesh));
-    for (const face_descriptor f : faces(mesh)) {
-      index.insert(f, static_cast<Index>(face_descriptors.size()));
-      face_descriptors.push_back(f);
-    }
-    std::vector<std::array<Index, 2>> sides;
-    sides.reserve(num_edges(mesh));
-    edge_descriptors.reserve(num_edges(mesh));
-    for (const edge_descriptor e : edges(mesh)) {
-      const auto [f, g] = faces_beside(e, mesh);
-      if (f == null_face || g == null_face || f == g) continue;
-      sides.push_back({index[f], index[g]});
-      edge_descriptors.push_back(e);
-    }
-    return {face_descriptors.size(), std::move(sides)};
-  }
-
-  static std::vector<Index> breadth_first_order(const Dual_graph& graph) {
-    std::vector<Index> order;
-    std::vector<bool> reached(graph.number_of_faces(), false);
-    order.reserve(reached.size());
-    const auto reach = [&](std::size_t face) {
-      if (reached[face]) return;
-      reached[face] = true;
-      order.push_back(static_cast<Index>(face));
-    };
-    for (std::size_t f = 0; f < reached.size(); ++f) {
-      std::size_t next = order.size();
-      for (reach(f); next < order.size(); ++next)
-        for (const auto& neighbour : graph.neighbours(order[next])) reach(neighbour.face);
-    }
-    return order;
-  }
-
-  Dual_graph renumber(const Dual_graph& unordered, std::vector<Index> order) {
-    std::vector<Index> number(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<Index>(i);
-    std::vector<std::array<Index, 2>> sides;
-    std::vector<edge_descriptor> ordered_edges;
-    std::vector<face_descriptor> ordered_faces;
-    sides.reserve(edge_descriptors.size());
-    ordered_edges.reserve(edge_descriptors.size());
-    ordered_faces.reserve(face_descriptors.size());
-    for (const Index f : order) {
-      index.insert(face_descriptors[f], static_cast<Index>(ordered_faces.size()));
-      ordered_faces.push_back(face_descriptors[f]);
-      for (const auto& [g, e] : unordered.neighbours(f)) {
-        if (number[g] < number[f]) continue;
-        const auto [first, second] = unordered.faces_of(e);
-        sides.push_back({number[first], number[second]});
-        ordered_edges.push_back(edge_descriptors[e]);
-      }
-    }
-    face_descriptors = std::move(ordered_faces);
-    edge_descriptors = std::move(ordered_edges);
-    place = std::move(order);
-    return {face_descriptors.size(), std::move(sides)};
-  }
-};
-
-/// Reads the vertices at the corners of faces, in the order in which the faces come to them.
+/// The points of vertices.
 /// \throws std::invalid_argument if a coordinate is not finite, naming the vertex by its place in the order of
 /// `vertices(mesh)`
-template <class FaceListGraph, class NamedParameters>
-void read_vertices(const FaceListGraph& mesh, const Descriptors<FaceListGraph>& descriptors, const NamedParameters& np,
-                   Dual_mesh::Arrays& arrays) {
-  using Index = Dual_graph::Index;
-  using vertex_descriptor = typename boost::graph_traits<FaceListGraph>::vertex_descriptor;
-  check_number(num_vertices(mesh), "vertices");
-  const auto points =
+template <class FaceListGraph, class NamedParameters, class VertexDescriptors>
+std::vector<Eigen::Vector3d> read_points(const FaceListGraph& mesh, const VertexDescriptors& descriptors,
+                                         const NamedParameters& np) {
+  const auto map =
       CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
                                          CGAL::get_const_property_map(CGAL::vertex_point, mesh));
-  Descriptor_index<vertex_descriptor> number;
-  number.reserve(num_vertices(mesh));
-  arrays.points.reserve(num_vertices(mesh));
-  const auto add = [&](vertex_descriptor v) {
-    const auto& p = get(points, v);
-    const Eigen::Vector3d point(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
-    if (!point.allFinite()) {
-      std::size_t place = 0;
-      for (const vertex_descriptor w : vertices(mesh)) {
-        if (w == v) break;
-        ++place;
-      }
-      throw std::invalid_argument("vertex " + std::to_string(place) + " has a coordinate that is not finite");
-    }
-    const auto added = static_cast<Index>(arrays.points.size());
-    number.insert(v, added);
-    arrays.points.push_back(point);
-    return added;
-  };
-  arrays.corners.reserve(descriptors.face_descriptors.size(), 3 * descriptors.face_descriptors.size());
-  for (const auto f : descriptors.face_descriptors) {
-    const auto first = halfedge(f, mesh);
-    auto h = first;
-    do {
-      const vertex_descriptor v = target(h, mesh);
-      const Index known = number[v];
-      arrays.corners.add(known == number.none ? add(v) : known);
-      h = next(h, mesh);
-    } while (h != first);
-    arrays.corners.end_face();
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(descriptors.size());
+  for (const auto v : descriptors) {
+    const auto& p = get(map, v);
+    points.emplace_back(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
+    if (points.back().allFinite()) continue;
+    throw std::invalid_argument("vertex " + std::to_string(place_in(vertices(mesh), v)) +
+                                " has a coordinate that is not finite");
   }
-  arrays.edge_ends.reserve(descriptors.edge_descriptors.size());
-  for (const auto e : descriptors.edge_descriptors) {
-    const auto h = halfedge(e, mesh);
-    arrays.edge_ends.push_back({number[source(h, mesh)], number[target(h, mesh)]});
-  }
+  return points;
 }
 
 }  // namespace internal
@@ -332,9 +216,7 @@ class Dual_mesh_of : public Dual_mesh {
   static Dual_mesh_of without_points(const FaceListGraph& mesh,
                                      const NamedParameters& np = CGAL::parameters::default_values()) {
     const auto descriptors = std::make_shared<internal::Descriptors<FaceListGraph>>();
-    Arrays arrays;
-    arrays.graph = descriptors->read(mesh);
-    arrays.is_wall = walls_of(np, *descriptors);
+    Arrays arrays = arrays_of(internal::Mesh_reading<FaceListGraph>(mesh, false), mesh, np, *descriptors);
     return {std::move(arrays), mesh, descriptors};
   }
 
@@ -356,7 +238,10 @@ class Dual_mesh_of : public Dual_mesh {
   /// The number of a face, `none` if the mesh has no such face.
   Index index(face_descriptor f) const { return descriptors_->index[f]; }
   /// The place of a face in the order of `faces(mesh)`, by which errors name it.
-  Index place(Index face) const { return descriptors_->place[face]; }
+  /// Complexity: linear.
+  Index place(Index face) const {
+    return static_cast<Index>(internal::place_in(faces(mesh()), face_descriptors()[face]));
+  }
 
   /// A map of faces as an array, each value converted by a function.
   /// \param convert from the map's value to the array's
@@ -435,13 +320,18 @@ class Dual_mesh_of : public Dual_mesh {
 
   template <class NamedParameters>
   Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np, const std::shared_ptr<Descriptors>& descriptors)
-      : Dual_mesh_of(arrays_of(mesh, np, *descriptors), mesh, descriptors) {}
+      : Dual_mesh_of(arrays_of(internal::Mesh_reading<FaceListGraph>(mesh, true), mesh, np, *descriptors), mesh,
+                     descriptors) {}
 
   template <class NamedParameters>
-  static Arrays arrays_of(const FaceListGraph& mesh, const NamedParameters& np, Descriptors& descriptors) {
+  static Arrays arrays_of(internal::Mesh_reading<FaceListGraph> reading, const FaceListGraph& mesh,
+                          const NamedParameters& np, Descriptors& descriptors) {
+    descriptors = std::move(reading.descriptors);
     Arrays arrays;
-    arrays.graph = descriptors.read(mesh);
-    internal::read_vertices(mesh, descriptors, np, arrays);
+    arrays.graph = {descriptors.face_descriptors.size(), std::move(reading.sides)};
+    arrays.corners = std::move(reading.corners);
+    arrays.edge_ends = std::move(reading.edge_ends);
+    arrays.points = internal::read_points(mesh, reading.vertex_descriptors, np);
     arrays.is_wall = walls_of(np, descriptors);
     return arrays;
   }
