@@ -1,4 +1,5 @@
 #include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Surface_samples.h>
 
 #include <gtest/gtest.h>
 #include "solids.h"

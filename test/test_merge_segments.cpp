@@ -1,4 +1,5 @@
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Merge_tree.h>
 #include <RW_segmentation/Region_boundary.h>
 #include <RW_segmentation/Relative_boundary_cost.h>
 #include <RW_segmentation/Segment_hierarchy.h>

@@ -8,6 +8,8 @@
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/Segmentation_policies.h>
+#include <RW_segmentation/Segmentation_report.h>
 
 #include <gtest/gtest.h>
 #include "face_labels.h"
