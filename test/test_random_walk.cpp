@@ -297,15 +297,16 @@ TEST(RandomWalk, DependsOnRatiosOfConductancesOnly) {
   for (const int exponent : {-1000, 100, 1023}) EXPECT_EQ(potential_of(exponent), expected) << exponent;
 }
 
-TEST(RandomWalk, TellsOfItsProgressWhileManyLabelsAreSolved) {
-  networks::Network network{networks::triangulated_torus(10), {}};
+/// What a walk of 100 labels tells of its progress, and how often once its solver has been prepared.
+static void expect_progress_while_solving(std::size_t squares, internal::Any_walk_solver solver) {
+  networks::Network network{networks::triangulated_torus(squares), {}};
   network.conductances.assign(network.graph.number_of_edges(), 1.);
   std::vector<double> told;
   const Progress progress{[&](double fraction) {
     told.push_back(fraction);
     return true;
   }};
-  internal::Graph_walk walk(network.graph, network.conductances, {}, progress);
+  internal::Graph_walk walk(network.graph, network.conductances, std::move(solver), progress);
   for (networks::Index l = 0; l < 100; ++l) walk.add_seed(2 * l, l);
   walk.labels();
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
@@ -313,6 +314,11 @@ TEST(RandomWalk, TellsOfItsProgressWhileManyLabelsAreSolved) {
   const auto solving = std::count_if(told.begin(), told.end(), [](double fraction) { return fraction > 0.7; });
   const std::set<double> different(told.end() - solving, told.end());
   EXPECT_GE(different.size(), 4u);
+}
+
+TEST(RandomWalk, TellsOfItsProgressWhileManyLabelsAreSolved) {
+  expect_progress_while_solving(120, {});
+  expect_progress_while_solving(10, RW_segmentation::Eigen_walk_solver<>());
 }
 
 // ---- Editing ----

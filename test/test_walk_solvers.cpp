@@ -132,6 +132,65 @@ TEST(StarMeshElimination, BalancesCurrentsAtEachFaceWhereSubtreesAreEliminatedAp
   }
 }
 
+/// Each face's label has a potential that no other label's exceeds by more than rounding, and is mostly the very one that
+/// all potentials name.
+static void expect_largest(const Network& network, const std::vector<Index>& seeds, std::size_t labels) {
+  std::vector<Index> label_of_seed;
+  for (std::size_t s = 0; s < seeds.size(); ++s) label_of_seed.push_back(static_cast<Index>(s % labels));
+  Potentials boundary(static_cast<Eigen::Index>(seeds.size()), static_cast<Eigen::Index>(labels)), all;
+  boundary.setZero();
+  for (std::size_t s = 0; s < seeds.size(); ++s) boundary(static_cast<Eigen::Index>(s), label_of_seed[s]) = 1;
+  Star_mesh_elimination solver;
+  solver.analyze(network.graph);
+  solver.factorize(network.conductances, seeds);
+  solver.potentials(boundary, all);
+  const std::vector<Index> found = solver.largest_potentials(label_of_seed, labels);
+  ASSERT_EQ(found.size(), network.graph.number_of_faces());
+  std::size_t different = 0;
+  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+    Eigen::Index best = 0;
+    const double largest = all.row(f).maxCoeff(&best);
+    EXPECT_GE(all(f, found[static_cast<std::size_t>(f)]), largest * (1 - 1e-11)) << "face " << f;
+    different += found[static_cast<std::size_t>(f)] != static_cast<Index>(best);
+  }
+  EXPECT_LE(different, network.graph.number_of_faces() / 100);
+}
+
+TEST(StarMeshElimination, FindsTheLargestPotentialsAmongAllThatItSolvesFor) {
+  std::mt19937 random(11);
+  for (const double decades : {0., 3., 30.})
+    for (const std::size_t labels : {2u, 5u, 40u})
+      for (const std::size_t seeds_a_label : {1u, 3u}) {
+        SCOPED_TRACE(testing::Message() << decades << " decades, " << labels << " labels, " << seeds_a_label
+                                        << " seeds");
+        Network torus{triangulated_torus(20), {}}, graph{random_graph(300, random), {}};
+        for (Network* network : {&torus, &graph}) {
+          network->conductances = spread_conductances(network->graph.number_of_edges(), decades, random);
+          expect_largest(*network, random_faces(network->graph, labels * seeds_a_label, random), labels);
+        }
+      }
+}
+
+TEST(StarMeshElimination, FindsTheLargestPotentialsWhereSubtreesAreEliminatedApart) {
+  const Network network = network_of_many_subtrees();
+  std::mt19937 random(12);
+  for (const std::size_t labels : {2u, 9u, 300u})
+    expect_largest(network, random_faces(network.graph, 2 * labels, random), labels);
+}
+
+TEST(StarMeshElimination, FindsTheLargestPotentialsInEachPartThatASeedReaches) {
+  const Network network{Dual_graph(7, {{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}}), {1, 1, 1, 1, 0}};
+  Star_mesh_elimination solver;
+  solver.analyze(network.graph);
+  solver.factorize(network.conductances, {0, 3, 4});
+  std::vector<Index> found = solver.largest_potentials({2, 1, 1}, 3);
+  EXPECT_LT(found.back(), 3u);  // is reached by none
+  found.pop_back();
+  EXPECT_EQ(found, std::vector<Index>({2, 2, 1, 1, 1, 1}));
+  EXPECT_THROW(solver.largest_potentials({2, 1}, 3), std::invalid_argument);
+  EXPECT_THROW(Star_mesh_elimination().largest_potentials({}, 1), std::invalid_argument);
+}
+
 TEST(StarMeshElimination, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
 #ifdef CGAL_LINKED_WITH_TBB
   const Network network = network_of_many_subtrees();

@@ -87,10 +87,20 @@ RW_SEGMENTATION_INLINE bool Graph_walk::label_by_columns(Walk_labels& labels) {
 }
 
 RW_SEGMENTATION_INLINE void Graph_walk::label_directly(Walk_labels& labels) {
-  constexpr std::size_t block = 16;  // labels solved together
   // A factor made for the same seeds serves again when only labels have changed.
   if (!factor_.is_for(seeds_)) factor_.factorise(network(), seeds_, progress_);
-  const Progress progress = progress_.part(factor_.when_made, 1);
+  std::vector<Index> ranks;
+  for (const Index face : factor_.base()) ranks.push_back(labels.rank_of(seeds_.label_of(face)));
+  const Progress progress = progress_.part(factor_.when_made, factor_.when_labelled);
+  std::vector<Index> winners = factor_.solver().largest_potentials(ranks, labels.number_of_seed_labels(), progress);
+  if (winners.empty())
+    compare_potentials(labels, progress);
+  else
+    labels.set_ranks(std::move(winners));
+}
+
+RW_SEGMENTATION_INLINE void Graph_walk::compare_potentials(Walk_labels& labels, const Progress& progress) {
+  constexpr std::size_t block = 16;  // labels solved together
   const std::vector<Index>& base = factor_.base();
   Potentials boundary, potentials;
   labels.begin();
@@ -107,12 +117,18 @@ RW_SEGMENTATION_INLINE void Graph_walk::label_directly(Walk_labels& labels) {
   }
 }
 
-/// Labels that are known to be connected are not searched again.
-RW_SEGMENTATION_INLINE void Graph_walk::settle_islands(const Walk_labels& labels, const Walk_labels& before) {
+/// Labels that are known to be connected are not searched again. Where an island goes, potentials tell.
+RW_SEGMENTATION_INLINE void Graph_walk::settle_islands(Walk_labels& labels, const Walk_labels& before) {
   std::vector<Label> doubtful = seeds_.changed_labels();
   doubtful.insert(doubtful.end(), labels_of_islands_.begin(), labels_of_islands_.end());
   const Walk_network network = this->network();
   const Label_islands islands(network, labels, seeds_, labels.unchanged_since(before, doubtful));
+  if (islands.number_of_faces() > 0 && !labels.has_potentials()) {
+    Walk_labels compared = labels;
+    compare_potentials(compared, progress_.part(factor_.when_labelled, 1));
+    labels.take_potentials(std::move(compared));
+    return settle_islands(labels, before);
+  }
   labels_of_islands_ = islands.labels();
   island_faces_ = islands.number_of_faces();
   settled_ = labels.labels_of(islands.settled_ranks());

@@ -8,6 +8,7 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -34,6 +35,14 @@ struct Is_walk_solver<
 template <class T>
 constexpr bool is_walk_solver = Is_walk_solver<T>::value;
 
+template <class T, class = void>
+struct Finds_largest_potentials : std::false_type {};
+template <class T>
+struct Finds_largest_potentials<
+    T, std::void_t<decltype(std::declval<const T&>().largest_potentials(
+           std::declval<const std::vector<Dual_graph::Index>&>(), std::size_t(), std::declval<const Progress&>()))>>
+    : std::true_type {};
+
 /// A `WalkSolver` of any type, so that the walk is compiled once for all of them. A call solves for a whole mesh: that it
 /// is a virtual one costs nothing.
 class Any_walk_solver {
@@ -58,6 +67,11 @@ class Any_walk_solver {
     solver_->response(face, boundary_values, column);
   }
   std::vector<double> absorbed_currents(Index face) const { return solver_->absorbed_currents(face); }
+  /// Empty where the solver has no such function.
+  std::vector<Index> largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
+                                        const Progress& progress) const {
+    return solver_->largest_potentials(labels, number_of_labels, progress);
+  }
 
  private:
   struct Concept {
@@ -70,6 +84,7 @@ class Any_walk_solver {
     virtual void potentials(const Potentials&, Potentials&) const = 0;
     virtual void response(Index, const std::vector<double>&, std::vector<double>&) const = 0;
     virtual std::vector<double> absorbed_currents(Index) const = 0;
+    virtual std::vector<Index> largest_potentials(const std::vector<Index>&, std::size_t, const Progress&) const = 0;
   };
 
   template <class Solver>
@@ -87,6 +102,14 @@ class Any_walk_solver {
       solver.response(face, boundary_values, column);
     }
     std::vector<double> absorbed_currents(Index face) const override { return solver.absorbed_currents(face); }
+    std::vector<Index> largest_potentials([[maybe_unused]] const std::vector<Index>& labels,
+                                          [[maybe_unused]] std::size_t number_of_labels,
+                                          [[maybe_unused]] const Progress& progress) const override {
+      if constexpr (Finds_largest_potentials<Solver>::value)
+        return solver.largest_potentials(labels, number_of_labels, progress);
+      else
+        return {};
+    }
     Solver solver;
   };
 

@@ -33,8 +33,8 @@ namespace internal {
 
 /// The walk on a dual graph: seeds in, labels and potentials out, edited seeds answered by single columns.
 ///
-/// Two ways lead to the labels. *Directly*: factorise with the seeds absorbing, solve for blocks of labels, keep the
-/// largest potential of each face only. *By columns*, once seeds are edited: a column of potentials for each seed face
+/// Two ways lead to the labels. *Directly*: factorise with the seeds absorbing and ask the solver for the label of the
+/// largest potential, or solve for blocks of labels and keep the largest potential of each face only. *By columns*, once seeds are edited: a column of potentials for each seed face
 /// is kept (8 bytes x faces x seed faces) and brought up to date, and a factorisation made anew when the loss of digits
 /// nears the promised accuracy. See `Seed_columns`.
 class Graph_walk {
@@ -87,7 +87,8 @@ class Graph_walk {
   void solve();
   bool label_by_columns(Walk_labels& labels);
   void label_directly(Walk_labels& labels);
-  void settle_islands(const Walk_labels& labels, const Walk_labels& before);
+  void compare_potentials(Walk_labels& labels, const Progress& progress);
+  void settle_islands(Walk_labels& labels, const Walk_labels& before);
 
   const Dual_graph* graph_;
   std::vector<double> conductances_;

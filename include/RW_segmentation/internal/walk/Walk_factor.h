@@ -20,7 +20,8 @@ namespace RW_segmentation::internal {
 class Walk_factor {
  public:
   using Index = Dual_graph::Index;
-  static constexpr double when_analysed = 0.3, when_made = 0.7;  ///< of the time of a walk, as its progress tells it
+  /// Of the time of a walk, as its progress tells it.
+  static constexpr double when_analysed = 0.3, when_made = 0.7, when_labelled = 0.9;
 
   explicit Walk_factor(Any_walk_solver solver) : solver_(std::move(solver)) {}
 
