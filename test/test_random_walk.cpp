@@ -596,6 +596,47 @@ TEST(Islands, GoToTheBestSupportedNeighbourAndAreCounted) {
   EXPECT_GT(runs_with_islands, 0u);
 }
 
+/// The default solver without its way to the largest potentials.
+class Solver_of_all_potentials {
+ public:
+  using Index = networks::Index;
+  void analyze(const Dual_graph& graph) { solver_.analyze(graph); }
+  void factorize(const std::vector<double>& conductances, const std::vector<Index>& absorbing,
+                 const Progress& progress) {
+    solver_.factorize(conductances, absorbing, progress);
+  }
+  void potentials(const Potentials& boundary_values, Potentials& potentials) const {
+    solver_.potentials(boundary_values, potentials);
+  }
+  void response(Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const {
+    solver_.response(face, boundary_values, column);
+  }
+  std::vector<double> absorbed_currents(Index face) const { return solver_.absorbed_currents(face); }
+
+ private:
+  Star_mesh_elimination solver_;
+};
+
+TEST(Islands, GoWhereAllPotentialsTellThemToWhateverTheSolverOffers) {
+  std::size_t walks_with_islands = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    networks::Network network{networks::triangulated_torus(seed % 2 ? 30 : 100), {}};
+    network.conductances = networks::spread_conductances(network.graph.number_of_edges(), seed % 2 ? 2 : 12, random);
+    internal::Graph_walk walk(network.graph, network.conductances);
+    internal::Graph_walk reference(network.graph, network.conductances, Solver_of_all_potentials());
+    const auto seeds = networks::random_faces(network.graph, 12, random);
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      walk.add_seed(seeds[s], s % 8);
+      reference.add_seed(seeds[s], s % 8);
+    }
+    EXPECT_EQ(walk.labels(), reference.labels()) << "seed " << seed;
+    EXPECT_EQ(walk.report().island_faces, reference.report().island_faces);
+    walks_with_islands += walk.report().island_faces > 0;
+  }
+  EXPECT_GT(walks_with_islands, 10u);
+}
+
 TEST(Islands, AreTheSameAfterEditsAsInAWalkMadeAnew) {
   std::size_t walks_with_islands = 0;
   std::mt19937 random(1);

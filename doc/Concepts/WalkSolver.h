@@ -36,8 +36,8 @@ class WalkSolver {
   /// The probabilities that a walk from `face` ends at each absorbing face. Throws as `response`.
   std::vector<double> absorbed_currents(Dual_graph::Index face) const;
 
-  /// Optional: the label with the largest potential at each face, the lowest one on a tie, where that costs less than the
-  /// potentials. `labels` has one entry for each absorbing face; any label will do for a face that reaches none.
-  std::vector<Dual_graph::Index> largest_potentials(const std::vector<Dual_graph::Index>& labels,
-                                                    std::size_t number_of_labels, const Progress& progress) const;
+  /// Optional: the label with the largest potential at each face, the lowest one on a tie, where that costs less than all
+  /// potentials, and its potential where that is known. `labels` has one entry for each absorbing face; any label will do for a face that reaches none.
+  Largest_potentials largest_potentials(const std::vector<Dual_graph::Index>& labels, std::size_t number_of_labels,
+                                        const Progress& progress) const;
 };

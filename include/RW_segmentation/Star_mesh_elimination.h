@@ -91,13 +91,13 @@ class Star_mesh_elimination {
 
   /// The label with the largest potential at each face, the lowest one on a tie, without the potentials of the others:
   /// the maximum principle tells for most parts of a mesh that one label alone can win there. Takes a quarter of the time
-  /// of `potentials` or less, and no memory for the potentials.
+  /// of `potentials` or less, and no memory for the potentials. In those parts that of the label is not computed, either.
   ///
   /// \param labels by absorbing face, in the order given to `factorize`: from 0 to `number_of_labels` - 1
   /// \returns by face; any label where no absorbing face can be reached
   /// \throws std::invalid_argument if there are not as many labels as absorbing faces
   /// \throws Cancelled
-  std::vector<Index> largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
+  Largest_potentials largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
                                         const Progress& progress = {}) const;
 
   /// Faces from which no absorbing face can be reached were met in the last factorisation.

@@ -92,11 +92,11 @@ RW_SEGMENTATION_INLINE void Graph_walk::label_directly(Walk_labels& labels) {
   std::vector<Index> ranks;
   for (const Index face : factor_.base()) ranks.push_back(labels.rank_of(seeds_.label_of(face)));
   const Progress progress = progress_.part(factor_.when_made, factor_.when_labelled);
-  std::vector<Index> winners = factor_.solver().largest_potentials(ranks, labels.number_of_seed_labels(), progress);
-  if (winners.empty())
+  Largest_potentials largest = factor_.solver().largest_potentials(ranks, labels.number_of_seed_labels(), progress);
+  if (largest.labels.empty())
     compare_potentials(labels, progress);
   else
-    labels.set_ranks(std::move(winners));
+    labels.take(std::move(largest));
 }
 
 RW_SEGMENTATION_INLINE void Graph_walk::compare_potentials(Walk_labels& labels, const Progress& progress) {
@@ -123,11 +123,10 @@ RW_SEGMENTATION_INLINE void Graph_walk::settle_islands(Walk_labels& labels, cons
   doubtful.insert(doubtful.end(), labels_of_islands_.begin(), labels_of_islands_.end());
   const Walk_network network = this->network();
   const Label_islands islands(network, labels, seeds_, labels.unchanged_since(before, doubtful));
-  if (islands.number_of_faces() > 0 && !labels.has_potentials()) {
+  if (!islands.has_potentials_beside()) {
     Walk_labels compared = labels;
     compare_potentials(compared, progress_.part(factor_.when_labelled, 1));
     labels.take_potentials(std::move(compared));
-    return settle_islands(labels, before);
   }
   labels_of_islands_ = islands.labels();
   island_faces_ = islands.number_of_faces();

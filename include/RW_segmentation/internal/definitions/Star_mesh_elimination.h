@@ -38,8 +38,9 @@ RW_SEGMENTATION_INLINE std::vector<double> Star_mesh_elimination::absorbed_curre
   return factor_->absorbed_currents(face);
 }
 
-RW_SEGMENTATION_INLINE std::vector<Dual_graph::Index> Star_mesh_elimination::largest_potentials(
-    const std::vector<Index>& labels, std::size_t number_of_labels, const Progress& progress) const {
+RW_SEGMENTATION_INLINE Largest_potentials Star_mesh_elimination::largest_potentials(const std::vector<Index>& labels,
+                                                                                    std::size_t number_of_labels,
+                                                                                    const Progress& progress) const {
   return factor_->largest_potentials(labels, number_of_labels, progress);
 }
 

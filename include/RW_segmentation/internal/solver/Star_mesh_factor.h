@@ -8,7 +8,7 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/solver/Elimination_plan.h>
-#include <RW_segmentation/internal/solver/Largest_potentials.h>
+#include <RW_segmentation/internal/solver/Pruned_substitution.h>
 #include <RW_segmentation/internal/solver/front_kernels.h>
 
 #include <CGAL/tags.h>
@@ -44,7 +44,7 @@ class Star_mesh_factor {
   void potentials(const Potentials& boundary_values, Potentials& potentials) const;
   void response(Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const;
   std::vector<double> absorbed_currents(Index face) const;
-  std::vector<Index> largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
+  Largest_potentials largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
                                         const Progress& progress = {}) const;
 
   /// Faces from which no absorbing face can be reached were met in the last factorisation.
@@ -347,20 +347,24 @@ inline std::vector<double> Star_mesh_factor::absorbed_currents(Index face) const
   return currents;
 }
 
-inline std::vector<Dual_graph::Index> Star_mesh_factor::largest_potentials(const std::vector<Index>& labels,
-                                                                           std::size_t number_of_labels,
-                                                                           const Progress& progress) const {
+inline Largest_potentials Star_mesh_factor::largest_potentials(const std::vector<Index>& labels,
+                                                               std::size_t number_of_labels,
+                                                               const Progress& progress) const {
   if (!transition_ || labels.size() != absorbing_faces_.size())
     throw std::invalid_argument("Star_mesh_elimination: labels for " + std::to_string(labels.size()) +
                                 " faces, factorised for " + std::to_string(absorbing_faces_.size()));
   const Factor_view factor = {plan_,        transition_.get(), sum_, absorbing_, absorbing_faces_, carries_current_,
                               instructions_};
-  const Largest_potentials largest(factor, labels, number_of_labels, progress);
-  std::vector<Index> of_face(plan_.face.size());
-  parallel_stretches(of_face.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t face = begin; face < end; ++face) of_face[face] = largest.labels()[plan_.position[face]];
+  const Pruned_substitution solved(factor, labels, number_of_labels, progress);
+  const std::size_t n = plan_.face.size();
+  Largest_potentials result = {std::vector<Index>(n), std::vector<double>(n)};
+  parallel_stretches(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t face = begin; face < end; ++face) {
+      result.labels[face] = solved.labels()[plan_.position[face]];
+      result.potentials[face] = solved.potentials()[plan_.position[face]];
+    }
   });
-  return of_face;
+  return result;
 }
 
 template <std::size_t labels>

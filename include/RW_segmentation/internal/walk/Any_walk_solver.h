@@ -67,8 +67,8 @@ class Any_walk_solver {
     solver_->response(face, boundary_values, column);
   }
   std::vector<double> absorbed_currents(Index face) const { return solver_->absorbed_currents(face); }
-  /// Empty where the solver has no such function.
-  std::vector<Index> largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
+  /// Of no face where the solver has no such function.
+  Largest_potentials largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
                                         const Progress& progress) const {
     return solver_->largest_potentials(labels, number_of_labels, progress);
   }
@@ -84,7 +84,7 @@ class Any_walk_solver {
     virtual void potentials(const Potentials&, Potentials&) const = 0;
     virtual void response(Index, const std::vector<double>&, std::vector<double>&) const = 0;
     virtual std::vector<double> absorbed_currents(Index) const = 0;
-    virtual std::vector<Index> largest_potentials(const std::vector<Index>&, std::size_t, const Progress&) const = 0;
+    virtual Largest_potentials largest_potentials(const std::vector<Index>&, std::size_t, const Progress&) const = 0;
   };
 
   template <class Solver>
@@ -102,7 +102,7 @@ class Any_walk_solver {
       solver.response(face, boundary_values, column);
     }
     std::vector<double> absorbed_currents(Index face) const override { return solver.absorbed_currents(face); }
-    std::vector<Index> largest_potentials([[maybe_unused]] const std::vector<Index>& labels,
+    Largest_potentials largest_potentials([[maybe_unused]] const std::vector<Index>& labels,
                                           [[maybe_unused]] std::size_t number_of_labels,
                                           [[maybe_unused]] const Progress& progress) const override {
       if constexpr (Finds_largest_potentials<Solver>::value)

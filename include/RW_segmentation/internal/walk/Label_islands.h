@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/walk/Walk_labels.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -43,6 +44,15 @@ class Label_islands {
     std::vector<Seed_set::Label> result;
     for (const auto& island : islands_) result.push_back(labels_.label(labels_.ranks()[island.front()]));
     return result;
+  }
+
+  /// Whether the potentials that `settled_ranks()` asks for are known: those of the faces beside islands.
+  bool has_potentials_beside() const {
+    for (const auto& island : islands_)
+      for (const Index face : island)
+        for (const auto& [next, edge] : network_.graph.neighbours(face))
+          if (std::isnan(labels_.largest()[next])) return false;
+    return true;
   }
 
   /// By face: the rank of its label when each island has gone to the label of the neighbour with the largest potential

@@ -49,9 +49,8 @@ class Walk_labels {
   Label label(std::size_t rank) const { return labels_[rank]; }
   /// By face.
   const std::vector<Index>& ranks() const { return rank_; }
-  /// By face: the potential of its label. Unknown where ranks alone were set.
+  /// By face: the potential of its label, NaN where that is not known.
   const std::vector<double>& largest() const { return largest_; }
-  bool has_potentials() const { return has_potentials_; }
 
   /// The rank of a label of seeds, `none` for another.
   Index rank_of(Label label) const {
@@ -67,23 +66,17 @@ class Walk_labels {
     return result;
   }
 
-  /// Takes the rank of the largest potential of each face.
-  void set_ranks(std::vector<Index> ranks) {
-    rank_ = std::move(ranks);
-    has_potentials_ = false;
+  /// Takes what a solver has found.
+  void take(Largest_potentials&& largest) {
+    rank_ = std::move(largest.labels);
+    largest_ = std::move(largest.potentials);
   }
 
   /// Takes the potentials that others have found, and leaves the ranks as they are.
-  void take_potentials(Walk_labels&& others) {
-    largest_ = std::move(others.largest_);
-    has_potentials_ = true;
-  }
+  void take_potentials(Walk_labels&& others) { largest_ = std::move(others.largest_); }
 
   /// Before potentials are compared.
-  void begin() {
-    std::fill(largest_.begin(), largest_.end(), -1.);
-    has_potentials_ = true;
-  }
+  void begin() { std::fill(largest_.begin(), largest_.end(), -1.); }
 
   /// Takes the potentials of labels with ranks from `first` on, one column a label; labels come in their order.
   void compare(const Walk_network& network, const Potentials& potentials, std::size_t first) {
@@ -116,7 +109,6 @@ class Walk_labels {
   std::size_t number_of_seed_labels_ = 0;  // which come first
   std::vector<Index> rank_;                // by face
   std::vector<double> largest_;            // by face
-  bool has_potentials_ = true;             // whether largest_ holds them
 };
 
 inline bool Walk_labels::compare(const Walk_network& network, const std::vector<Seed_columns::Column>& columns,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#ifndef RW_SEGMENTATION_INTERNAL_SOLVER_LARGEST_POTENTIALS_H
-#define RW_SEGMENTATION_INTERNAL_SOLVER_LARGEST_POTENTIALS_H
+#ifndef RW_SEGMENTATION_INTERNAL_SOLVER_PRUNED_SUBSTITUTION_H
+#define RW_SEGMENTATION_INTERNAL_SOLVER_PRUNED_SUBSTITUTION_H
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <thread>
 #include <utility>
@@ -156,14 +157,15 @@ class Label_currents {
 /// another label. Such labels are dropped, and a subtree that is left with one is filled without being read: on meshes a
 /// tenth of the supernodes are visited, which takes .2 to .26 of the time of all potentials (`benchmark_scaling`, 153
 /// thousand to 2.4 million faces).
-class Largest_potentials {
+class Pruned_substitution {
  public:
   using Index = Dual_graph::Index;
 
   /// \param labels by absorbing face, below `number_of_labels`
-  Largest_potentials(const Factor_view& factor, const std::vector<Index>& labels, std::size_t number_of_labels,
-                     const Progress& progress)
+  Pruned_substitution(const Factor_view& factor, const std::vector<Index>& labels, std::size_t number_of_labels,
+                      const Progress& progress)
       : label_(factor.plan.face.size(), 0),
+        potential_(factor.plan.face.size(), std::numeric_limits<double>::quiet_NaN()),
         factor_(factor),
         currents_(factor, labels),
         least_of_winner_((1 - rounding) / static_cast<double>(number_of_labels)) {
@@ -174,6 +176,8 @@ class Largest_potentials {
 
   /// By position. Any label where no seed reaches.
   const std::vector<Index>& labels() const { return label_; }
+  /// By position: the potential of that label, NaN in subtrees that were filled.
+  const std::vector<double>& potentials() const { return potential_; }
 
  private:
   static constexpr Index none = Elimination_plan::none;
@@ -384,10 +388,12 @@ class Largest_potentials {
         label = front.labels[l];
       }
       label_[supernode.begin + k] = label;
+      potential_[supernode.begin + k] = best;
     }
   }
 
-  std::vector<Index> label_;  // by position
+  std::vector<Index> label_;       // by position
+  std::vector<double> potential_;  // by position
   const Factor_view factor_;
   const Label_currents currents_;
   const double least_of_winner_;
