@@ -14,7 +14,8 @@
 /// \cgalHasModels
 /// - `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10),
 ///   `RW_segmentation::Analytic_surface_cost`
-/// - Function objects: `RW_segmentation::Size_aware_cost_policy`
+/// - With a `Boundary`: `RW_segmentation::Learned_cost`
+/// - Function objects: `RW_segmentation::Learned_cost_policy`, `RW_segmentation::Size_aware_cost_policy`
 /// - A user's own: `Smallest_area_cost` in `examples/own_policies.cpp`
 class MergeCost {
  public:
