@@ -52,12 +52,15 @@ struct Subject {
   std::vector<Labels> people;
 };
 
-/// The benchmark has 20 meshes in each category.
+constexpr std::size_t meshes_of_a_category = 20;
+
+/// What a mesh shows.
 inline std::string category_of(std::size_t number) {
   static const std::vector<std::string> names = {
       "Human", "Cup",  "Glasses", "Airplane", "Ant",       "Chair", "Octopus", "Table",   "Teddy", "Hand",
       "Plier", "Fish", "Bird",    "Spring",   "Armadillo", "Bust",  "Mech",    "Bearing", "Vase",  "Fourleg"};
-  return number >= 1 && number <= 20 * names.size() ? names[(number - 1) / 20] : "others";
+  return number >= 1 && number <= meshes_of_a_category * names.size() ? names[(number - 1) / meshes_of_a_category]
+                                                                      : "others";
 }
 
 inline Labels read_labels(const std::filesystem::path& path) {
