@@ -9,9 +9,6 @@
 #include <RW_segmentation/internal/merging/Boosted_trees.h>
 #include <RW_segmentation/internal/merging/Merge_features.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/property_maps.h>
-
-#include <boost/graph/graph_traits.hpp>
 
 #include <memory>
 #include <type_traits>
@@ -42,7 +39,7 @@ bool is_solid(const std::vector<double>& thickness);
 /// smoothed shape, whatever difference fragments are merged with; c heeds that difference.
 ///
 /// Learned on 190 meshes of the Princeton Segmentation Benchmark, by `benchmark/train_merge_cost.py`; the manual tells how
-/// well it does on categories of shapes that were left out. Each cost takes about two microseconds.
+/// well it does on categories of shapes that were left out. Each cost takes constant time, a few microseconds.
 class Learned_cost {
  public:
   /// Sums over the faces of a region.
@@ -83,9 +80,7 @@ class Learned_cost {
   /// \param thickness in the mesh's unit of length; 0 where it is not known
   /// Complexity: linear.
   template <class FaceListGraph, class ThicknessMap,
-            std::enable_if_t<
-                internal::is_readable_map<ThicknessMap, typename boost::graph_traits<FaceListGraph>::face_descriptor>,
-                int> = 0>
+            std::enable_if_t<!std::is_same_v<ThicknessMap, std::vector<double>>, int> = 0>
   Learned_cost(const FaceListGraph& shape, const ThicknessMap& thickness)
       : Learned_cost(internal::dual_mesh(shape, CGAL::parameters::default_values()), thickness, 0) {}
 
