@@ -44,7 +44,7 @@ void segment_by_hand(Mesh& mesh, Labels labels) {
   walk.segment(labels);
   const auto thickness = mesh.add_property_map<Mesh::Face_index, double>("f:thickness").first;
   local_thickness(shape, thickness);
-  const auto hierarchy = merge_segments(shape, labels, difference, Size_aware_cost(shape, thickness));
+  const auto hierarchy = merge_segments(shape, labels, difference, Learned_cost(shape, thickness));
   hierarchy.segments(Cost_threshold_stop(1), labels);
 }
 

@@ -10,10 +10,12 @@
 #endif
 
 #include "measurement.h"
+#include "princeton_data.h"
 #include "segmentation_measures.h"
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Learned_cost.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/coarse_seeds.h>
@@ -21,9 +23,6 @@
 #include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/transfer_segments.h>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Surface_mesh_approximation/approximate_triangle_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
@@ -33,9 +32,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -44,24 +45,13 @@
 #include <iterator>
 #include <map>
 #include <mutex>
-#include <random>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
-
-#if __has_include(<CGAL/AABB_traits_3.h>)
-#include <CGAL/AABB_traits_3.h>
-template <class Kernel, class Primitive>
-using AABB_traits = CGAL::AABB_traits_3<Kernel, Primitive>;
-#else
-#include <CGAL/AABB_traits.h>
-template <class Kernel, class Primitive>
-using AABB_traits = CGAL::AABB_traits<Kernel, Primitive>;
-#endif
 
 #if __has_include(<CGAL/Polygon_mesh_processing/region_growing.h>)
 #include <CGAL/Polygon_mesh_processing/region_growing.h>
@@ -72,153 +62,10 @@ using AABB_traits = CGAL::AABB_traits<Kernel, Primitive>;
 
 using namespace RW_segmentation;
 using namespace measurement;
+using namespace princeton;
 using segmentation_measures::Overlaps;
 
 namespace {
-
-using Face = Mesh::Face_index;
-using Labels = std::vector<std::size_t>;  // in the order of the faces
-
-// ---- The benchmark's data ----
-
-struct Subject {
-  std::size_t number;         // 1 .. 400
-  Mesh mesh;                  // as it is segmented
-  std::vector<Face> nearest;  // face of `mesh` for each face that people labelled
-  std::vector<Labels> people;
-};
-
-/// The benchmark has 20 meshes in each category.
-std::string category_of(std::size_t number) {
-  static const std::vector<std::string> names = {
-      "Human", "Cup",  "Glasses", "Airplane", "Ant",       "Chair", "Octopus", "Table",   "Teddy", "Hand",
-      "Plier", "Fish", "Bird",    "Spring",   "Armadillo", "Bust",  "Mech",    "Bearing", "Vase",  "Fourleg"};
-  return number >= 1 && number <= 20 * names.size() ? names[(number - 1) / 20] : "others";
-}
-
-Labels read_labels(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  Labels labels;
-  for (std::size_t label = 0; file >> label;) labels.push_back(label);
-  if (!file.eof()) throw std::runtime_error(path.string() + ": not a label in each line");
-  return labels;
-}
-
-std::vector<Labels> read_people(const std::filesystem::path& folder, std::size_t faces) {
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".seg") paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  std::vector<Labels> people;
-  for (const auto& path : paths) {
-    people.push_back(read_labels(path));
-    if (people.back().size() != faces)
-      throw std::runtime_error(path.string() + ": " + std::to_string(people.back().size()) + " labels for " +
-                               std::to_string(faces) + " faces");
-  }
-  if (people.empty()) throw std::runtime_error(folder.string() + ": no segmentations by people");
-  return people;
-}
-
-std::vector<std::size_t> numbers_in_folder(const std::filesystem::path& folder) {
-  std::vector<std::size_t> numbers;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".off") numbers.push_back(std::stoul(entry.path().stem().string()));
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
-}
-
-std::vector<std::size_t> numbers_in_file(const std::string& path) {
-  std::ifstream file(path);
-  std::vector<std::size_t> numbers;
-  for (std::size_t number = 0; file >> number;) numbers.push_back(number);
-  if (numbers.empty()) throw std::runtime_error(path + ": no numbers of meshes");
-  return numbers;
-}
-
-// ---- Changes of the meshes that test robustness ----
-
-struct Changes {
-  double noise = 0;  // standard deviation of each coordinate, percent of the diagonal of the bounding box
-  double faces = 1;  // factor
-};
-
-double diagonal_of(const Mesh& mesh) {
-  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
-
-void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
-  std::mt19937 random(static_cast<unsigned>(random_seed));
-  std::normal_distribution<double> noise;
-  const double deviation = percent / 100 * diagonal_of(mesh);
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    const double x = deviation * noise(random), y = deviation * noise(random), z = deviation * noise(random);
-    mesh.point(v) = {p.x() + x, p.y() + y, p.z() + z};
-  }
-}
-
-/// The mesh with each face split in four, and the middle ones of these.
-std::pair<Mesh, std::vector<Face>> split_in_four(const Mesh& mesh) {
-  Mesh fine;
-  std::vector<Face> middle;
-  std::vector<Mesh::Vertex_index> corner, halving;
-  for (const auto v : mesh.vertices()) corner.push_back(fine.add_vertex(mesh.point(v)));
-  for (const auto e : mesh.edges())
-    halving.push_back(fine.add_vertex(CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
-  for (const auto f : mesh.faces()) {
-    const auto a = mesh.halfedge(f), b = mesh.next(a), c = mesh.next(b);
-    for (const auto& [in, out] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-      fine.add_face(halving[mesh.edge(in)], corner[mesh.target(in)], halving[mesh.edge(out)]);
-    middle.push_back(fine.add_face(halving[mesh.edge(a)], halving[mesh.edge(b)], halving[mesh.edge(c)]));
-  }
-  return {std::move(fine), std::move(middle)};
-}
-
-/// Ends an edge collapse at a fraction of the edges. CGAL's own predicate changed its name between versions.
-struct Edge_ratio_stop {
-  double ratio;
-  template <class Cost, class Profile>
-  bool operator()(const Cost&, const Profile&, std::size_t initial, std::size_t current) const {
-    return static_cast<double>(current) <= ratio * static_cast<double>(initial);
-  }
-};
-
-/// The mesh with a fraction of its faces, and for each face of `mesh` the one closest to its centroid.
-std::pair<Mesh, std::vector<Face>> simplified(const Mesh& mesh, double ratio) {
-  Mesh coarse = mesh;
-  CGAL::Surface_mesh_simplification::edge_collapse(coarse, Edge_ratio_stop{ratio});
-  coarse.collect_garbage();
-
-  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-  const CGAL::AABB_tree<AABB_traits<CGAL::Simple_cartesian<double>, Primitive>> tree(faces(coarse).begin(),
-                                                                                     faces(coarse).end(), coarse);
-  std::vector<Face> nearest;
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    const auto centroid =
-        CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
-    nearest.push_back(tree.closest_point_and_primitive(centroid).second);
-  }
-  return {std::move(coarse), std::move(nearest)};
-}
-
-Subject read_subject(const std::filesystem::path& data, std::size_t number, const Changes& changes) {
-  const std::string name = std::to_string(number);
-  Subject subject;
-  subject.number = number;
-  subject.mesh = read_mesh((data / "data" / "off" / (name + ".off")).string());
-  subject.people = read_people(data / "data" / "seg" / "Benchmark" / name, num_faces(subject.mesh));
-  if (changes.faces == 4)
-    std::tie(subject.mesh, subject.nearest) = split_in_four(subject.mesh);
-  else if (changes.faces < 1)
-    std::tie(subject.mesh, subject.nearest) = simplified(subject.mesh, changes.faces);
-  else
-    subject.nearest.assign(faces(subject.mesh).begin(), faces(subject.mesh).end());
-  if (changes.noise > 0) add_noise(subject.mesh, changes.noise, number);
-  return subject;
-}
 
 // ---- Methods ----
 
@@ -393,10 +240,73 @@ Automatic_segmentation with_reduced_walk() {
   return policy;
 }
 
-const std::vector<std::pair<std::string, Method>>& methods() {
-  static const std::vector<std::pair<std::string, Method>> all = {
-      {"automatic", [](const Subject& s) { return by_walks(s, Automatic_segmentation()); }},
-      {"count", [](const Subject& s) { return by_walks(s, Automatic_segmentation(typical_number_of_segments(s))); }},
+/// The trees of the learned merge cost that know nothing of a category, for each of the categories: what
+/// train_merge_cost.py writes to --folds.
+class Trees_without_category {
+ public:
+  /// \throws std::runtime_error
+  explicit Trees_without_category(const std::string& path) {
+    std::ifstream file(path);
+    std::size_t category = 0, number = 0;
+    while (file >> category >> number) {
+      std::vector<internal::Decision_tree>& trees = trees_[category];
+      trees.resize(number);
+      for (internal::Decision_tree& tree : trees) read(file, tree);
+    }
+    if (!file.eof() || trees_.empty()) throw std::runtime_error(path + ": no trees as train_merge_cost.py writes them");
+    for (const auto& [without, trees] : trees_) boosted_[without] = {trees.data(), trees.size()};
+  }
+
+  /// \throws std::runtime_error if there are none for the category of a mesh
+  const internal::Boosted_trees& for_mesh(std::size_t number) const {
+    const auto found = boosted_.find((number - 1) / meshes_of_a_category);
+    if (found == boosted_.end()) throw std::runtime_error("no trees that know nothing of " + category_of(number));
+    return found->second;
+  }
+
+ private:
+  static void read(std::ifstream& file, internal::Decision_tree& tree) {
+    for (internal::Decision_tree::Split& split : tree.splits) {
+      int feature = 0, yes = 0, no = 0;
+      file >> feature >> split.threshold >> yes >> no;
+      split.feature = static_cast<std::uint8_t>(feature);
+      split.yes = static_cast<std::int8_t>(yes);
+      split.no = static_cast<std::int8_t>(no);
+    }
+    for (double& leaf : tree.leaves) file >> leaf;
+  }
+
+  std::map<std::size_t, std::vector<internal::Decision_tree>> trees_;
+  std::map<std::size_t, internal::Boosted_trees> boosted_;
+};
+
+/// The automatic segmentation, by trees that know nothing of the category of the mesh if such are given.
+Outcome_of_method automatically(const Subject& subject, const Automatic_segmentation& policy,
+                                const Trees_without_category* folds) {
+  if (!folds) return by_walks(subject, policy);
+  const internal::Boosted_trees& trees = folds->for_mesh(subject.number);
+  return by_walks(subject, policy.with_merge_cost([&](const Dual_mesh& mesh) {
+    return Learned_cost(mesh, internal::thickness_of_faces(mesh, policy.merge_cost.thickness, {}), trees);
+  }));
+}
+
+/// \param folds null: the library's own trees
+std::vector<std::pair<std::string, Method>> methods(const Trees_without_category* folds = nullptr) {
+  return {
+      {"automatic", [=](const Subject& s) { return automatically(s, Automatic_segmentation(), folds); }},
+      {"count",
+       [=](const Subject& s) {
+         return automatically(s, Automatic_segmentation(typical_number_of_segments(s)), folds);
+       }},
+      {"size_aware",
+       [](const Subject& s) {
+         return by_walks(s, Automatic_segmentation().with_merge_cost(Size_aware_cost_policy()));
+       }},
+      {"size_aware_count",
+       [](const Subject& s) {
+         return by_walks(
+             s, Automatic_segmentation(typical_number_of_segments(s)).with_merge_cost(Size_aware_cost_policy()));
+       }},
       {"paper", [](const Subject& s) { return by_walks(s, Paper_segmentation()); }},
       {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
       {"coarse", by_coarse_seeds},
@@ -412,7 +322,6 @@ const std::vector<std::pair<std::string, Method>>& methods() {
       {"vsa", by_shape_approximation},
       {"region_growing", by_region_growing},
   };
-  return all;
 }
 
 // ---- Measures ----
@@ -438,7 +347,8 @@ void add_comparison(Score& score, const Labels& a, const Labels& b, double weigh
   score.local_consistency += weight * overlaps.local_consistency_error();
 }
 
-Score score_of(const Subject& subject, const Method& method) {
+/// \param automatic the labels of the direct automatic segmentation
+Score score_of(const Subject& subject, const Method& method, const Labels& automatic) {
   Outcome_of_method outcome = method(subject);
   Labels labels;
   for (const Face f : subject.nearest) labels.push_back(outcome.labels[f]);
@@ -447,7 +357,6 @@ Score score_of(const Subject& subject, const Method& method) {
   for (const Labels& person : subject.people)
     add_comparison(score, labels, person, 1 / static_cast<double>(subject.people.size()));
   score.segments = static_cast<double>(number_of_segments(outcome.labels));
-  const Labels automatic = by_walks(subject, Automatic_segmentation()).labels;
   score.overlap = 1 - Overlaps(outcome.labels, automatic).hamming_distance();
   for (const auto& stage : outcome.stages) score.milliseconds += 1000 * stage.seconds;
   score.stages = std::move(outcome.stages);
@@ -540,6 +449,34 @@ void print_table(const std::string& method, const std::vector<Score>& scores) {
   std::fflush(stdout);
 }
 
+/// How much less people disagree with a method than with another one, mesh by mesh.
+std::vector<double> gains(const std::vector<Score>& scores, const std::vector<Score>& others) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < scores.size(); ++i) differences.push_back(scores[i].error - others[i].error);
+  return differences;
+}
+
+void print_comparison(const std::string& method, const std::vector<Score>& scores, const std::string& other,
+                      const std::vector<Score>& others) {
+  std::printf("\nRand error %s %-6s %10s %10s %18s\n", "of        ", "meshes", method.c_str(), other.c_str(),
+              "difference");
+  const auto print_row = [](const std::string& name, const std::vector<Score>& a, const std::vector<Score>& b) {
+    const std::vector<double> difference = gains(a, b);
+    std::printf("%-20s %6zu %10.4f %10.4f %+9.4f +- %.4f\n", name.c_str(), a.size(), mean(column(a, 0)),
+                mean(column(b, 0)), mean(difference), standard_error(difference));
+  };
+  for (std::size_t begin = 0, end = 0; begin < scores.size(); begin = end) {
+    const std::string category = category_of(scores[begin].number);
+    while (end < scores.size() && category_of(scores[end].number) == category) ++end;
+    const auto part = [&](const std::vector<Score>& all) {
+      return std::vector<Score>(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                                all.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    print_row(category, part(scores), part(others));
+  }
+  print_row("all", scores, others);
+}
+
 void write_scores(const std::string& path, const std::vector<std::string>& methods,
                   const std::vector<std::vector<Score>>& scores) {
   std::ofstream file(path);
@@ -573,7 +510,7 @@ Result result_of(const std::string& method, const Changes& changes, const std::v
 
 int main(int argc, char* argv[]) {
   CLI::App app("Agreement with people on the Princeton Segmentation Benchmark");
-  std::string data, meshes, csv;
+  std::string data, meshes, csv, folds, trees;
   std::vector<std::string> chosen = {"automatic", "count"};
   Changes changes;
   std::size_t threads = 1;
@@ -592,6 +529,13 @@ int main(int argc, char* argv[]) {
       ->check(CLI::Range(0.01, 4.));
   app.add_option("--threads", threads, "meshes at once; times are then those of a busy machine")
       ->check(CLI::Range(1, 1024));
+  auto* fold_option = app.add_option("--folds", folds,
+                                     "what the trees of the learned merge cost know nothing of: the mesh's category;\n"
+                                     "compares with the size-aware cost")
+                          ->check(CLI::IsMember({"category"}));
+  app.add_option("--trees", trees, "file of such trees, as train_merge_cost.py writes it to its --folds")
+      ->check(CLI::ExistingFile)
+      ->needs(fold_option);
   app.add_option("--csv", csv, "write the scores of each mesh to this file");
   CLI11_PARSE(app, argc, argv);
 
@@ -600,14 +544,23 @@ int main(int argc, char* argv[]) {
     const auto numbers =
         meshes.empty() ? numbers_in_folder(std::filesystem::path(data) / "data" / "off") : numbers_in_file(meshes);
     if (numbers.empty()) throw std::runtime_error(data + ": no meshes");
+    std::optional<Trees_without_category> trees_of_folds;
+    if (!folds.empty()) {
+      if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
+      trees_of_folds.emplace(trees);
+      chosen = {"automatic", "size_aware", "count", "size_aware_count"};
+    }
+    const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 
     std::vector<std::vector<Score>> scores(chosen.size(), std::vector<Score>(numbers.size()));
     in_parallel(numbers.size(), threads, [&](std::size_t i) {
       const Subject subject = read_subject(data, numbers[i], changes);
+      const Labels automatic = by_walks(subject, Automatic_segmentation()).labels;
       for (std::size_t m = 0; m < chosen.size(); ++m) {
-        const auto method = std::find_if(methods().begin(), methods().end(),
+        const auto method = std::find_if(all_methods.begin(), all_methods.end(),
                                          [&](const auto& named) { return named.first == chosen[m]; });
-        scores[m][i] = method == methods().end() ? score_of_people(subject) : score_of(subject, method->second);
+        scores[m][i] =
+            method == all_methods.end() ? score_of_people(subject) : score_of(subject, method->second, automatic);
       }
     });
 
@@ -615,6 +568,12 @@ int main(int argc, char* argv[]) {
     for (std::size_t m = 0; m < chosen.size(); ++m) {
       print_table(chosen[m], scores[m]);
       results.push_back(result_of(chosen[m], changes, scores[m]));
+    }
+    for (std::size_t m = 0; trees_of_folds && m < chosen.size(); m += 2) {
+      print_comparison(chosen[m], scores[m], chosen[m + 1], scores[m + 1]);
+      const std::vector<double> difference = gains(scores[m], scores[m + 1]);
+      results[m].add("folds", folds).add("difference", mean(difference));
+      results[m].add("standard_error_of_difference", standard_error(difference));
     }
     if (!csv.empty()) write_scores(csv, chosen, scores);
     print(results);

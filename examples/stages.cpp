@@ -5,8 +5,8 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Learned_cost.h>
 #include <RW_segmentation/Random_walk.h>
-#include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     RW::segmentation_from_seeds(shape, conductance, seeds, segment);
 
     RW::local_thickness(shape, thickness);
-    const RW::Size_aware_cost cost(shape, thickness);
+    const RW::Learned_cost cost(shape, thickness);
     const auto hierarchy = RW::merge_segments(shape, segment, difference, cost);
     hierarchy.segments(RW::Cost_threshold_stop(1), segment);
     //! [stages]

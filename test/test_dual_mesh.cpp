@@ -696,7 +696,7 @@ Labels automatic_by_hand(const Mesh& mesh, const NamedParameters& np) {
   const auto thickness_map =
       boost::make_function_property_map<Face>([&](const Face& f) -> double& { return thickness[shape.index(f)]; });
   local_thickness(shape, thickness_map);
-  merge_segments(shape, ids.map(), difference, Size_aware_cost(shape, thickness_map))
+  merge_segments(shape, ids.map(), difference, Learned_cost(shape, thickness_map))
       .segments(Cost_threshold_stop(1), ids.map());
   return ids.values();
 }

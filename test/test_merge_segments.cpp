@@ -193,6 +193,115 @@ TEST(MergeSegments, UserCostGetsRegionsJoined) {
   EXPECT_EQ(hierarchy.merges().back().cost, static_cast<double>(num_faces(mesh)));
 }
 
+namespace {
+
+/// Eq. 10 with sums of one's own.
+struct Own_relative_boundary {
+  struct Region {};
+  struct Boundary {
+    double length = 0, difference = 0;
+    Boundary& operator+=(const Boundary& other) {
+      length += other.length;
+      difference += other.difference;
+      return *this;
+    }
+  };
+  Region region(const Dual_mesh&, Dual_mesh::Index) const { return {}; }
+  void join(Region&, const Region&) const {}
+  Boundary boundary(const Dual_mesh& mesh, Dual_mesh::Index edge, double difference) const {
+    return {mesh.edge_length(edge), mesh.edge_length(edge) * difference};
+  }
+  double operator()(const Region&, const Region&, const Region_boundary_of<Boundary>& boundary) const {
+    const auto& [common, a, b] = boundary;
+    return common.difference / common.length * (a.length + b.length - common.length) /
+           (a.difference + b.difference - common.difference);
+  }
+};
+
+/// Holds all faces of regions and all edges of boundaries, and compares them with the mesh each time it is asked.
+struct Cost_that_checks {
+  using Region = std::set<Dual_mesh::Index>;
+  struct Boundary {
+    std::multiset<Dual_mesh::Index> edges;
+    Boundary& operator+=(const Boundary& other) {
+      edges.insert(other.edges.begin(), other.edges.end());
+      return *this;
+    }
+  };
+  Dual_mesh mesh;
+  std::size_t* asked;
+
+  Region region(const Dual_mesh&, Dual_mesh::Index face) const { return {face}; }
+  void join(Region& region, const Region& other) const { region.insert(other.begin(), other.end()); }
+  Boundary boundary(const Dual_mesh& given, Dual_mesh::Index edge, double difference) const {
+    EXPECT_FALSE(given.is_wall(edge));
+    EXPECT_EQ(difference, static_cast<double>(edge % 7));
+    return {{edge}};
+  }
+  double operator()(const Region& a, const Region& b, const Region_boundary_of<Boundary>& boundary) const {
+    ++*asked;
+    std::multiset<Dual_mesh::Index> common, outline_of_a, outline_of_b;
+    for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
+      if (mesh.is_wall(e)) continue;
+      const auto [f, g] = mesh.graph().faces_of(e);
+      if (a.count(f) != a.count(g)) outline_of_a.insert(e);
+      if (b.count(f) != b.count(g)) outline_of_b.insert(e);
+      if ((a.count(f) && b.count(g)) || (b.count(f) && a.count(g))) common.insert(e);
+    }
+    EXPECT_EQ(boundary.common.edges, common);
+    EXPECT_EQ(boundary.outline_of_first.edges, outline_of_a);
+    EXPECT_EQ(boundary.outline_of_second.edges, outline_of_b);
+    return static_cast<double>(a.size() + b.size());
+  }
+};
+
+/// A cost of the older form with a type of that name, which means something else.
+struct Cost_with_a_type_named_boundary : Number_of_faces {
+  enum class Boundary { open, closed };
+};
+
+}  // namespace
+
+TEST(MergeSegments, SumsOfACostsOwnAlongBoundariesAreAddedAsTheLibrarysAre) {
+  const Surface_mesh mesh = bumpy_torus();
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 60));
+  const Dihedral_difference<Surface_mesh> difference(mesh);
+  const auto expected = merge_segments(mesh, ids.map(), difference, Relative_boundary_cost()).merges();
+  const auto merges = merge_segments(mesh, ids.map(), difference, Own_relative_boundary()).merges();
+  ASSERT_EQ(merges.size(), expected.size());
+  for (std::size_t i = 0; i < merges.size(); ++i) {
+    EXPECT_EQ(merges[i].first, expected[i].first);
+    EXPECT_EQ(merges[i].second, expected[i].second);
+    EXPECT_NEAR(merges[i].cost, expected[i].cost, 1e-9 * expected[i].cost);
+  }
+}
+
+TEST(MergeSegments, BoundariesOfACostsOwnHoldTheEdgesBetweenTheirRegionsAndNoWalls) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::with_noise(meshes::torus(2, 1, 12, 8), 0.03));
+  const auto walls = boost::make_function_property_map<Surface_mesh::Edge_index>(
+      [](Surface_mesh::Edge_index e) { return e.idx() % 11 == 0; });
+  const Dual_mesh_of dual(mesh, CGAL::parameters::edge_is_constrained_map(walls));
+  std::map<Surface_mesh::Edge_index, double> number;
+  for (Dual_mesh::Index e = 0; e < dual.number_of_edges(); ++e) number[dual.edge(e)] = static_cast<double>(e % 7);
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 25));
+  std::size_t asked = 0;
+  const auto merges =
+      merge_segments(dual, ids.map(), boost::make_assoc_property_map(number), Cost_that_checks{dual, &asked}).merges();
+  EXPECT_EQ(merges.size(), 24u);
+  EXPECT_EQ(merges.back().cost, static_cast<double>(num_faces(mesh)));
+  EXPECT_GT(asked, 60u);
+}
+
+TEST(MergeSegments, ATypeNamedBoundaryAloneChangesNothing) {
+  const Surface_mesh mesh = bumpy_torus();
+  Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 40));
+  const Dihedral_difference<Surface_mesh> difference(mesh);
+  const auto expected = merge_segments(mesh, ids.map(), difference, Number_of_faces()).merges();
+  const auto merges = merge_segments(mesh, ids.map(), difference, Cost_with_a_type_named_boundary()).merges();
+  ASSERT_EQ(merges.size(), expected.size());
+  for (std::size_t i = 0; i < merges.size(); ++i) EXPECT_EQ(merges[i].cost, expected[i].cost);
+}
+
 TEST(MergeSegments, ThousandsOfFragmentsCostFewEvaluations) {
   struct Counting : Relative_boundary_cost {
     std::size_t* calls;

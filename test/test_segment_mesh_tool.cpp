@@ -483,7 +483,7 @@ TEST_F(Segment_mesh_tool, APageHoldsMeshLabelsAndLevels) {
   EXPECT_EQ(page["mode"], "graphical");
   EXPECT_EQ(page["policies"]["difference"], "concavity");
   EXPECT_EQ(page["policies"]["seeding"], "farthest");
-  EXPECT_EQ(page["policies"]["mergeCost"], "size");
+  EXPECT_EQ(page["policies"]["mergeCost"], "learned");
   EXPECT_EQ(page["seeds"].size(), 0U);
   EXPECT_EQ(page["segments"], 3);
 
@@ -647,7 +647,7 @@ struct Choice {
 
 const std::vector<Choice> choices = {{"--difference", {"dihedral", "concavity", "curvature"}},
                                      {"--seeding", {"farthest", "particles", "coarse"}},
-                                     {"--merge-cost", {"size", "boundary"}},
+                                     {"--merge-cost", {"learned", "size", "boundary"}},
                                      {"--solver", {"star-mesh", "eigen"}}};
 
 TEST_F(Segment_mesh_tool, EachChoiceGivesAsManySegmentsAsAskedForAndIsReported) {
@@ -673,7 +673,7 @@ TEST_F(Segment_mesh_tool, ThePresetsAreChoices) {
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     return std::pair(labels("t.seg"), nlohmann::json::parse(content_of(path("r.json")))["parameters"]);
   };
-  EXPECT_EQ(outcome({}), outcome({"--difference", "concavity", "--seeding", "farthest", "--merge-cost", "size",
+  EXPECT_EQ(outcome({}), outcome({"--difference", "concavity", "--seeding", "farthest", "--merge-cost", "learned",
                                   "--solver", "star-mesh"}));
   EXPECT_EQ(outcome({"--paper"}), outcome({"--difference", "dihedral", "--smoothing", "0", "--seeding", "particles",
                                            "--seeds", "60", "--merge-cost", "boundary"}));

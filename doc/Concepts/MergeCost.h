@@ -8,10 +8,14 @@
 /// In `Segmentation_policies` a *function object* from the dual mesh of the smoothed shape to a merge cost may take its
 /// place, for costs that compute something of the whole mesh first.
 ///
+/// A cost that must know more of a boundary than `Region_boundary` tells has a type `Boundary` and a function `boundary()`
+/// besides; both or neither. Its `operator()` is then given a `Region_boundary_of<Boundary>`.
+///
 /// \cgalHasModels
 /// - `RW_segmentation::Size_aware_cost`, `RW_segmentation::Relative_boundary_cost` (Eq. 10),
 ///   `RW_segmentation::Analytic_surface_cost`
-/// - Function objects: `RW_segmentation::Size_aware_cost_policy`
+/// - With a `Boundary`: `RW_segmentation::Learned_cost`
+/// - Function objects: `RW_segmentation::Learned_cost_policy`, `RW_segmentation::Size_aware_cost_policy`
 /// - A user's own: `Smallest_area_cost` in `examples/own_policies.cpp`
 class MergeCost {
  public:
@@ -28,4 +32,17 @@ class MergeCost {
 
   /// The cost of merging two regions that meet in a boundary.
   double operator()(const Region& a, const Region& b, const Region_boundary& boundary) const;
+
+  /// Optional: sums of one's own over the edges between two regions. Default-constructible (as the sums of no edge) and
+  /// copyable, with `operator+=`. Sums must not depend on which of the two regions comes first.
+  struct Boundary;
+
+  /// Optional, with `Boundary`: the sums of a single edge that is no wall.
+  /// \param mesh as above
+  /// \param edge the number of the edge; it may be without length, but a cost is never asked for a boundary without
+  /// \param difference of the two faces of the edge
+  Boundary boundary(const Dual_mesh& mesh, Dual_mesh::Index edge, double difference) const;
+
+  /// In place of the other one, with `Boundary`: the cost of merging two regions.
+  double operator()(const Region& a, const Region& b, const Region_boundary_of<Boundary>& boundary) const;
 };

@@ -10,12 +10,13 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Eigen_walk_solver.h>
+#include <RW_segmentation/Learned_cost.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Particle_sampling.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Region_boundary.h>
 #include <RW_segmentation/Relative_boundary_cost.h>
 #include <RW_segmentation/Segmentation_policies.h>
-#include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/coarse_seeds.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
@@ -37,8 +38,9 @@ namespace segment_mesh {
 enum class Difference { dihedral, concavity, curvature };
 /// Where walks begin: far apart, as evenly as particles, or once on each large structure.
 enum class Seeding { farthest, particles, coarse };
-/// Which fragments are merged first: small and alike ones, or those with the weakest boundary as in the paper (Eq. 10).
-enum class Merge_cost { size, boundary };
+/// Which fragments are merged first: those that people would have in one segment, small and alike ones, or those with the
+/// weakest boundary as in the paper (Eq. 10).
+enum class Merge_cost { learned, size, boundary };
 /// What finds out where walks end.
 enum class Solver { star_mesh, eigen };
 
@@ -50,7 +52,8 @@ inline const Names<Difference> difference_names = {
     {"dihedral", Difference::dihedral}, {"concavity", Difference::concavity}, {"curvature", Difference::curvature}};
 inline const Names<Seeding> seeding_names = {
     {"farthest", Seeding::farthest}, {"particles", Seeding::particles}, {"coarse", Seeding::coarse}};
-inline const Names<Merge_cost> merge_cost_names = {{"size", Merge_cost::size}, {"boundary", Merge_cost::boundary}};
+inline const Names<Merge_cost> merge_cost_names = {
+    {"learned", Merge_cost::learned}, {"size", Merge_cost::size}, {"boundary", Merge_cost::boundary}};
 inline const Names<Solver> solver_names = {{"star-mesh", Solver::star_mesh}, {"eigen", Solver::eigen}};
 inline const Names<RW_segmentation::Dihedral_measure> measure_names = {
     {"angle", RW_segmentation::Dihedral_measure::angle},
@@ -87,24 +90,32 @@ using Seeding_function =
 /// One of the merge costs; a model of `MergeCost`.
 class Chosen_merge_cost {
  public:
-  using Region = RW_segmentation::Size_aware_cost::Region;  // the other one needs none
+  using Region = RW_segmentation::Learned_cost::Region;  // the others need less
+  using Boundary = RW_segmentation::Learned_cost::Boundary;
 
-  /// Eq. 10 of the paper.
-  Chosen_merge_cost() = default;
-  explicit Chosen_merge_cost(RW_segmentation::Size_aware_cost cost) : by_size_(std::move(cost)) {}
+  /// \param all_sums a cost whose sums have all that the others are made of, too
+  Chosen_merge_cost(Merge_cost choice, RW_segmentation::Learned_cost all_sums)
+      : choice_(choice), learned_(std::move(all_sums)) {}
 
-  Region region(const RW_segmentation::Dual_mesh& mesh, Face_number face) const {
-    return by_size_ ? by_size_->region(mesh, face) : Region();
+  Region region(const RW_segmentation::Dual_mesh& mesh, Face_number face) const { return learned_.region(mesh, face); }
+  void join(Region& region, const Region& other) const { learned_.join(region, other); }
+  Boundary boundary(const RW_segmentation::Dual_mesh& mesh, Face_number edge, double difference) const {
+    return learned_.boundary(mesh, edge, difference);
   }
-  void join(Region& region, const Region& other) const {
-    if (by_size_) by_size_->join(region, other);
-  }
-  double operator()(const Region& a, const Region& b, const RW_segmentation::Region_boundary& boundary) const {
-    return by_size_ ? (*by_size_)(a, b, boundary) : RW_segmentation::Relative_boundary_cost()({}, {}, boundary);
+  double operator()(const Region& a, const Region& b,
+                    const RW_segmentation::Region_boundary_of<Boundary>& boundary) const {
+    if (choice_ == Merge_cost::learned) return learned_(a, b, boundary);
+    if (choice_ == Merge_cost::size) return learned_.size_aware_cost(a, b, boundary);
+    const auto& [common, first, second] = boundary;
+    const RW_segmentation::Edge_sums whole = {
+        first.difference.length + (second.difference.length - common.difference.length),
+        first.difference.difference + (second.difference.difference - common.difference.difference)};
+    return RW_segmentation::Relative_boundary_cost()({}, {}, {common.difference, whole});
   }
 
  private:
-  std::optional<RW_segmentation::Size_aware_cost> by_size_;
+  Merge_cost choice_;
+  RW_segmentation::Learned_cost learned_;
 };
 
 using Merge_cost_function = std::function<Chosen_merge_cost(const RW_segmentation::Dual_mesh&)>;
@@ -144,7 +155,7 @@ using Policies = RW_segmentation::Segmentation_policies<Difference_function, See
 struct Method {
   Difference difference = Difference::concavity;
   Seeding seeding = Seeding::farthest;
-  Merge_cost merge_cost = Merge_cost::size;
+  Merge_cost merge_cost = Merge_cost::learned;
   Solver solver = Solver::star_mesh;
 
   RW_segmentation::Normal_smoothing smoothing;
@@ -173,8 +184,8 @@ void take_numbers(const Preset& preset, Method& method) {
 
 /// As many segments as the shape suggests: where merging stops by itself depends on what it costs.
 inline RW_segmentation::Any_stop stop_by_shape(Merge_cost cost) {
-  return cost == Merge_cost::size ? RW_segmentation::Automatic_segmentation().stop
-                                  : RW_segmentation::Paper_segmentation().stop;
+  return cost == Merge_cost::boundary ? RW_segmentation::Paper_segmentation().stop
+                                      : RW_segmentation::Automatic_segmentation().stop;
 }
 
 inline Difference_function difference_function(const Method& method) {
@@ -225,8 +236,9 @@ inline Seeding_function seeding_function(const Method& method) {
 }
 
 inline Merge_cost_function merge_cost_function(const Method& method) {
-  if (method.merge_cost == Merge_cost::boundary) return [](const auto&) { return Chosen_merge_cost(); };
-  return [](const auto& mesh) { return Chosen_merge_cost(RW_segmentation::Size_aware_cost_policy()(mesh)); };
+  RW_segmentation::Learned_cost_policy policy;
+  if (method.merge_cost == Merge_cost::boundary) policy.thickness.samples = 0;
+  return [policy, choice = method.merge_cost](const auto& mesh) { return Chosen_merge_cost(choice, policy(mesh)); };
 }
 
 /// The policies that a method stands for.

@@ -171,7 +171,7 @@ inline Method method_of(const Options& options) {
                                             : options.is_paper ? Seeding::particles
                                                                : Seeding::farthest);
   method.difference = options.difference.value_or(options.is_paper ? Difference::dihedral : Difference::concavity);
-  method.merge_cost = options.merge_cost.value_or(options.is_paper ? Merge_cost::boundary : Merge_cost::size);
+  method.merge_cost = options.merge_cost.value_or(options.is_paper ? Merge_cost::boundary : Merge_cost::learned);
   method.solver = options.solver.value_or(method.solver);
   if (options.is_paper)
     take_numbers(preset_of<RW_segmentation::Paper_segmentation>(options), method);

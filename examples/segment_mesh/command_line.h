@@ -88,8 +88,9 @@ inline void define_command_line(CLI::App& app, Options& options) {
              "or one on each large structure, as many as there are unless --seeds tells",
              "Automatic segments");
   add_choice(app, "--merge-cost", options.merge_cost, merge_cost_names,
-             "Which fragments are merged first: small ones, and those as thick as each other (default), or those with\n"
-             "the weakest boundary, as in the paper",
+             "Which fragments are merged first: small ones, those as thick as each other, and those that people would\n"
+             "have in one segment (default); the same but for what was learned from people; or those with the\n"
+             "weakest boundary, as in the paper",
              "Automatic segments");
   app.add_flag("--engineering", options.is_engineering,
                "For parts of machines: each segment is a plane, sphere, cylinder, cone or torus, or a free form;\n"

@@ -24,6 +24,15 @@ struct Region_boundary {
   Edge_sums whole;   ///< the edges round either region, those between the two counted once
 };
 
+/// What a merge cost that has a type `Boundary` of its own learns of the boundaries of two neighbouring regions. Border
+/// edges of the mesh belong to none, nor do walls.
+template <class Boundary>
+struct Region_boundary_of {
+  const Boundary& common;             ///< the edges between the two regions
+  const Boundary& outline_of_first;   ///< the edges between the first region and all of its neighbours
+  const Boundary& outline_of_second;  ///< the edges between the second region and all of its neighbours
+};
+
 }  // namespace RW_segmentation
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Learned_cost.h>
 #include <RW_segmentation/Merge_tree.h>
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
@@ -18,6 +19,7 @@
 #include <functional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace RW_segmentation {
 
@@ -96,18 +98,31 @@ struct Size_aware_cost_policy {
   }
 };
 
+/// `Learned_cost` with the thickness of the solid, measured on the shape: a function object from a dual mesh to a merge cost.
+struct Learned_cost_policy {
+  Thickness_sampling thickness;  ///< 0 samples: neither thickness nor what was learned counts
+
+  /// \throws std::invalid_argument if a number of `thickness` is out of range
+  Learned_cost operator()(const Dual_mesh& mesh) const {
+    return Learned_cost(
+        mesh, thickness.samples == 0 ? std::vector<double>() : internal::thickness_of_faces(mesh, thickness, {}));
+  }
+};
+
 namespace internal {
 
 using Automatic_policies =
     Segmentation_policies<Dihedral_difference_policy, Feature_sensitive_seeding<Farthest_point_sampling>,
-                          Star_mesh_elimination, Size_aware_cost_policy, Any_stop>;
+                          Star_mesh_elimination, Learned_cost_policy, Any_stop>;
 /// Twice as many seeds as segments are asked for, so that there is something to choose from.
 inline std::size_t seeds_for(std::size_t segments, std::size_t least) { return std::max(least, 2 * segments); }
 
 }  // namespace internal
 
 /// The policies that agree best with people: segments are cut where smoothed normals turn inward. Walks from a few dozen
-/// seeds make the fragments, and fragments are merged by their size and thickness.
+/// seeds make the fragments, and fragments are merged by their size, their thickness and what was learned from people.
+///
+/// `Automatic_segmentation().with_merge_cost(Size_aware_cost_policy())` leaves out what was learned.
 struct Automatic_segmentation : internal::Automatic_policies {
   /// As many segments as the shape suggests: merging stops at cost 1.
   Automatic_segmentation()

@@ -45,7 +45,8 @@ namespace RW_segmentation {
 /// \tparam Difference a readable property map from `edge_descriptor` to a number >= 0, as for `Conductance`
 /// \tparam MergeCost a model of `MergeCost`: a type `Region` (default-constructible, copyable), `region(mesh, face)` for
 /// the region of one face of a `Dual_mesh`, `join(region, other)` to enlarge a region, `operator()(region, region,
-/// Region_boundary)` for the cost of merging two, symmetric, not NaN; all of them const
+/// Region_boundary)` for the cost of merging two, symmetric, not NaN; all of them const. With a type `Boundary` and
+/// `boundary(mesh, edge, difference)` it has sums of its own along boundaries
 /// \tparam NamedParameters a sequence of CGAL's named parameters
 /// \param mesh the mesh
 /// \param segment_ids the segments to start from, the fragments

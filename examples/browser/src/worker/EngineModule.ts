@@ -50,7 +50,7 @@ export type HierarchyKind = 'graphical' | 'engineering';
 export interface Policies {
   difference: 'concavity' | 'dihedral' | 'curvature';
   seeding: 'farthest' | 'particles' | 'coarse';
-  mergeCost: 'size' | 'boundary';
+  mergeCost: 'learned' | 'size' | 'boundary';
 }
 
 /** What an automatic segmentation is made by. Machine parts heed no policies. */

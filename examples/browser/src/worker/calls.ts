@@ -14,7 +14,7 @@ export interface WalkParameters {
 export const defaultParameters: WalkParameters = { convexWeight: 0.02, sigma: 1 };
 
 /** Likewise, without seeds. */
-export const defaultPolicies: Policies = { difference: 'concavity', seeding: 'farthest', mergeCost: 'size' };
+export const defaultPolicies: Policies = { difference: 'concavity', seeding: 'farthest', mergeCost: 'learned' };
 
 export interface LoadedMesh extends MeshData {
   /** Pairs of faces that share an edge. */

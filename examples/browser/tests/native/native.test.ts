@@ -65,6 +65,7 @@ for (const [model, choices, options] of [
   ['quadruped', { kind: 'graphical' }, []],
   ['hand', { difference: 'dihedral', seeding: 'particles' }, ['--difference', 'dihedral', '--seeding', 'particles']],
   ['hand', { difference: 'curvature' }, ['--difference', 'curvature']],
+  ['hand', { mergeCost: 'size' }, ['--merge-cost', 'size']],
   ['quadruped', { seeding: 'coarse', mergeCost: 'boundary' }, ['--seeding', 'coarse', '--merge-cost', 'boundary']],
   ['turned shaft', { kind: 'engineering' }, ['--engineering']],
 ] as [string, Partial<AutomaticMethod>, string[]][])

@@ -48,7 +48,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   };
   result.tree = Region_merging<Analytic_surface_cost>(
                     join_faces(result.fragment_of_face, report.fragments, cost, region_of),
-                    region_boundaries(mesh, result.fragment_of_face, edge_sharpness(mesh, tolerance)), cost)
+                    region_boundaries(mesh, result.fragment_of_face, edge_sharpness(mesh, tolerance), cost), cost)
                     .run(progress.part(0.85, 1));
   clock.note("merging");
   progress(1);

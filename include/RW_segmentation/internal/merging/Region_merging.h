@@ -24,6 +24,52 @@
 
 namespace RW_segmentation::internal {
 
+/// The sums along boundaries that a merge cost is asked with, and how it is asked: `Edge_sums` unless it has a type
+/// `Boundary` and a function `boundary()`.
+template <class Cost, class Mesh, class = void>
+struct Boundaries_of_cost {
+  static constexpr bool are_its_own = false;
+  using Sums = Edge_sums;
+
+  static Sums of_edge(const Cost&, const Mesh&, Dual_mesh::Index, double length, double difference) {
+    return {length, length * difference};
+  }
+
+  template <class Region>
+  static auto ask(const Cost& cost, const Region& a, const Region& b, const Sums& common, const Sums& outline_of_a,
+                  const Sums& outline_of_b) -> decltype(cost(a, b, std::declval<const Region_boundary&>())) {
+    const Edge_sums whole = {outline_of_a.length + (outline_of_b.length - common.length),
+                             outline_of_a.difference + (outline_of_b.difference - common.difference)};
+    return cost(a, b, Region_boundary{common, whole});
+  }
+};
+template <class Cost, class Mesh>
+struct Boundaries_of_cost<Cost, Mesh,
+                          std::void_t<decltype(typename Cost::Boundary(std::declval<const Cost&>().boundary(
+                              std::declval<const Mesh&>(), Dual_mesh::Index(), double())))>> {
+  static constexpr bool are_its_own = true;
+  struct Sums {
+    double length = 0;
+    typename Cost::Boundary own = {};
+    Sums& operator+=(const Sums& other) {
+      length += other.length;
+      own += other.own;
+      return *this;
+    }
+  };
+
+  static Sums of_edge(const Cost& cost, const Mesh& mesh, Dual_mesh::Index edge, double length, double difference) {
+    return {length, cost.boundary(mesh, edge, difference)};
+  }
+
+  template <class Region>
+  static auto ask(const Cost& cost, const Region& a, const Region& b, const Sums& common, const Sums& outline_of_a,
+                  const Sums& outline_of_b)
+      -> decltype(cost(a, b, std::declval<const Region_boundary_of<typename Cost::Boundary>&>())) {
+    return cost(a, b, Region_boundary_of<typename Cost::Boundary>{common.own, outline_of_a.own, outline_of_b.own});
+  }
+};
+
 template <class Cost, class Mesh, class = void>
 struct Is_merge_cost : std::false_type {};
 template <class Cost, class Mesh>
@@ -34,37 +80,61 @@ struct Is_merge_cost<
                     std::declval<const Cost&>().region(std::declval<const Mesh&>(), Dual_mesh::Index()))),
                 decltype(std::declval<const Cost&>().join(std::declval<typename Cost::Region&>(),
                                                           std::declval<const typename Cost::Region&>())),
-                decltype(static_cast<double>(std::declval<const Cost&>()(
-                    std::declval<const typename Cost::Region&>(), std::declval<const typename Cost::Region&>(),
-                    std::declval<const Region_boundary&>())))>> : std::true_type {};
+                decltype(static_cast<double>(Boundaries_of_cost<Cost, Mesh>::ask(
+                    std::declval<const Cost&>(), std::declval<const typename Cost::Region&>(),
+                    std::declval<const typename Cost::Region&>(),
+                    std::declval<const typename Boundaries_of_cost<Cost, Mesh>::Sums&>(),
+                    std::declval<const typename Boundaries_of_cost<Cost, Mesh>::Sums&>(),
+                    std::declval<const typename Boundaries_of_cost<Cost, Mesh>::Sums&>())))>> : std::true_type {};
 
 /// Whether it is a `MergeCost` for a kind of mesh.
 template <class Cost, class Mesh>
 constexpr bool is_merge_cost = Is_merge_cost<Cost, Mesh>::value;
 
 /// The edges between two neighbouring regions, the lower region first.
+template <class Sums>
 struct Boundary_of_regions {
   std::array<Dual_mesh::Index, 2> regions;
-  Edge_sums common;
+  Sums common;
 };
 
-/// The boundaries between neighbouring regions, sorted by their regions.
+/// An edge between two neighbouring regions, the lower region first.
+struct Crossing {
+  std::array<Dual_mesh::Index, 2> regions;
+  Dual_mesh::Index edge;
+};
+
+/// The edges between neighbouring regions, sorted by their regions, then by edge.
 /// Regions are no neighbours across a wall, which counts as little as the border of the mesh.
-std::vector<Boundary_of_regions> region_boundaries(const Dual_mesh& mesh,
-                                                   const std::vector<std::size_t>& region_of_face,
-                                                   const std::vector<double>& difference);
+std::vector<Crossing> region_crossings(const Dual_mesh& mesh, const std::vector<std::size_t>& region_of_face);
+
+/// The boundaries between neighbouring regions, sorted by their regions.
+template <class MergeCost, class Mesh>
+auto region_boundaries(const Mesh& mesh, const std::vector<std::size_t>& region_of_face,
+                       const std::vector<double>& difference, const MergeCost& cost) {
+  using Asking = Boundaries_of_cost<MergeCost, Mesh>;
+  const double unit = mesh.length_unit();
+  std::vector<Boundary_of_regions<typename Asking::Sums>> boundaries;
+  for (const auto& [regions, e] : region_crossings(mesh, region_of_face)) {
+    if (boundaries.empty() || boundaries.back().regions != regions) boundaries.push_back({regions, {}});
+    boundaries.back().common += Asking::of_edge(cost, mesh, e, mesh.edge_length(e) / unit, difference[e]);
+  }
+  return boundaries;
+}
 
 /// Merges neighbouring regions, cheapest first, until no two neighbours are left.
 ///
 /// Each merge visits the neighbours of the two regions and no others. With equal costs the pair that came first in the
 /// order of the boundaries is merged first.
-template <class MergeCost>
+template <class MergeCost, class Mesh = Dual_mesh>
 class Region_merging {
  public:
   using Index = Dual_mesh::Index;
   using Region = typename MergeCost::Region;
+  using Boundary_sums = typename Boundaries_of_cost<MergeCost, Mesh>::Sums;
+  using Boundaries = std::vector<Boundary_of_regions<Boundary_sums>>;
 
-  Region_merging(std::vector<Region> regions, std::vector<Boundary_of_regions> boundaries, const MergeCost& cost)
+  Region_merging(std::vector<Region> regions, Boundaries boundaries, const MergeCost& cost)
       : cost_(cost),
         region_(std::move(regions)),
         outline_(region_.size()),
@@ -115,9 +185,9 @@ class Region_merging {
     const auto& [regions, common] = boundary_[boundary];
     // Regions that touch only along edges without length come last, and no threshold joins them.
     if (!(common.length > 0)) return std::numeric_limits<double>::infinity();
-    const Edge_sums &a = outline_[regions[0]], &b = outline_[regions[1]];
-    const Edge_sums whole = {a.length + (b.length - common.length), a.difference + (b.difference - common.difference)};
-    const double cost = cost_(region_[regions[0]], region_[regions[1]], Region_boundary{common, whole});
+    const auto [a, b] = regions;
+    const double cost = static_cast<double>(
+        Boundaries_of_cost<MergeCost, Mesh>::ask(cost_, region_[a], region_[b], common, outline_[a], outline_[b]));
     if (std::isnan(cost)) throw std::invalid_argument("the merge cost of two regions is NaN");
     return cost;
   }
@@ -170,10 +240,10 @@ class Region_merging {
 
   const MergeCost& cost_;
   std::vector<Region> region_;
-  std::vector<Edge_sums> outline_;                 // of each region
+  std::vector<Boundary_sums> outline_;             // of each region
   std::vector<std::vector<Index>> boundaries_of_;  // each region
   std::vector<Index> boundary_to_;                 // each neighbour of the region at hand
-  std::vector<Boundary_of_regions> boundary_;
+  Boundaries boundary_;
   Queue queue_;
   std::vector<typename Queue::handle_type> place_;  // of each boundary in the queue
 };
@@ -208,7 +278,8 @@ Merge_tree merge_fragments(const Mesh& mesh, const std::vector<std::size_t>& fra
                            const MergeCost& cost, const Progress& progress) {
   auto regions =
       join_faces(fragment_of_face, number_of_fragments, cost, [&](Dual_mesh::Index f) { return cost.region(mesh, f); });
-  return Region_merging<MergeCost>(std::move(regions), region_boundaries(mesh, fragment_of_face, difference), cost)
+  return Region_merging<MergeCost, Mesh>(std::move(regions),
+                                         region_boundaries(mesh, fragment_of_face, difference, cost), cost)
       .run(progress);
 }
 

@@ -77,7 +77,7 @@ class Creases {
         const auto piece = [&](Index face) { return static_cast<Index>(piece_of_face[face] - first_piece); };
         sums[{piece(f), piece(g)}] += {length, is_crease(e) ? length : 0};
       }
-    std::vector<Boundary_of_regions> boundaries;
+    std::vector<Boundary_of_regions<Edge_sums>> boundaries;
     for (const auto& [regions, common] : sums) boundaries.push_back({regions, common});
     const Share_of_crease cost;
     const Merge_tree tree =
