@@ -275,7 +275,10 @@ std::vector<double> by_interior_edge(const Mesh& mesh, const Dual& dual, const s
 void define_mesh(nb::module_& m) {
   nb::class_<Mesh>(m, "Mesh", "A mesh over arrays, repaired where that is needed and wished.")
       .def(nb::init<Mesh::Any_array, Mesh::Any_array, std::optional<Integers>, std::size_t, bool>(),
-           nb::arg("vertices"), nb::arg("corners"), nb::arg("offsets").none(), nb::arg("degree"), nb::arg("repair"))
+           nb::arg("vertices"), nb::arg("corners"), nb::arg("offsets").none(), nb::arg("degree"), nb::arg("repair"),
+           nb::sig("def __init__(self, vertices: numpy.typing.NDArray[numpy.float32] | "
+                   "numpy.typing.NDArray[numpy.float64], corners: numpy.typing.NDArray[typing.Any], "
+                   "offsets: numpy.typing.NDArray[numpy.int64] | None, degree: int, repair: bool) -> None"))
       .def_prop_ro("number_of_faces", &Mesh::number_of_faces)
       .def_prop_ro("remarks", &Mesh::remarks)
       .def("interior_edges", &interior_edges,

@@ -82,10 +82,11 @@ void define_hierarchy(nb::module_& m) {
       .def_prop_ro("number_of_fragments", [](const Hierarchy& h) { return h.tree.number_of_fragments(); })
       .def_prop_ro("number_of_components", [](const Hierarchy& h) { return h.tree.number_of_components(); })
       .def_ro("suggested", &Hierarchy::suggested)
-      .def_prop_ro("merges", &merges)
-      .def_prop_ro("costs", &costs)
+      .def_prop_ro("merges", &merges, nb::rv_policy::move)
+      .def_prop_ro("costs", &costs, nb::rv_policy::move)
       .def_prop_ro("fragment_of_face",
-                   [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); })
+                   [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); },
+                   nb::rv_policy::move)
       .def_prop_ro("report", &report)
       .def("labels", &labels, nb::arg("number"));
   m.def("hierarchy", &hierarchy, nb::arg("mesh"), nb::arg("choices"), nb::arg("seeds"), nb::arg("difference").none(),
