@@ -38,11 +38,12 @@ Array<T> array_of(std::vector<T>&& values) {
 }
 
 /// The same in rows.
+/// \param rows how many, where there may be no columns
 template <class T>
-Table<T> table_of(std::vector<T>&& values, std::size_t columns) {
+Table<T> table_of(std::vector<T>&& values, std::size_t columns, std::size_t rows = 0) {
   auto* kept = new std::vector<T>(std::move(values));
   const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-  return Table<T>(kept->data(), {columns == 0 ? 0 : kept->size() / columns, columns}, owner);
+  return Table<T>(kept->data(), {columns == 0 ? rows : kept->size() / columns, columns}, owner);
 }
 
 }  // namespace rw_python

@@ -128,7 +128,7 @@ nb::tuple refine(const Mesh& mesh, const Rows& probabilities, double reach, cons
     refined = mesh.by_user_face<double>(rows, labels);
     return mesh.by_user_face<std::int64_t>(labels_of(ground, potentials));
   });
-  return nb::make_tuple(array_of(std::move(label)), table_of(std::move(refined), labels));
+  return nb::make_tuple(array_of(std::move(label)), table_of(std::move(refined), labels, mesh.number_of_faces()));
 }
 
 }  // namespace

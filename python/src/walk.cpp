@@ -91,7 +91,7 @@ class Walk {
       for (const std::size_t label : labels) walk_->write_probabilities(label, Column{rows.data() + k++, columns});
       return mesh_.by_user_face<double>(rows, columns);
     });
-    return nb::make_tuple(array_of(std::move(values)), table_of(std::move(table), columns));
+    return nb::make_tuple(array_of(std::move(values)), table_of(std::move(table), columns, mesh_.number_of_faces()));
   }
 
   nb::dict report() {
