@@ -13,7 +13,8 @@ Solid and Physical Modeling, 2008.
 """
 
 from rw_segmentation._arrays import MeshRepairWarning, Polygons
-from rw_segmentation._core import Cancelled, __version__
+from rw_segmentation._core import Cancelled
+from rw_segmentation._core import version as __version__
 from rw_segmentation.adapters import (
     face_colors,
     from_meshio,

@@ -50,7 +50,8 @@ def to_trimesh(vertices: ArrayLike, faces: Faces, labels: ArrayLike | None = Non
     if labels is not None:
         known = integers_of(labels, "labels")
         mesh.face_attributes["segment"] = known
-        mesh.visual.face_colors = face_colors(vertices, triangles, known)
+        colors = face_colors(vertices, triangles, known)
+        mesh.visual = trimesh.visual.ColorVisuals(mesh, face_colors=colors)
     return mesh
 
 

@@ -285,7 +285,16 @@ def curvatures(
         )
     numbers = [np.ascontiguousarray(column) for column in rows.T]
     directions = [np.ascontiguousarray(vectors[:, i : i + 3]) for i in (0, 3, 6)]
-    return Curvatures(*numbers, *directions, radius=length)
+    return Curvatures(
+        max=numbers[0],
+        min=numbers[1],
+        mean_by_volume=numbers[2],
+        offset=numbers[3],
+        max_direction=directions[0],
+        min_direction=directions[1],
+        normal=directions[2],
+        radius=length,
+    )
 
 
 def thickness(

@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 
     from rw_segmentation.boundaries import BoundaryCurve
 
+# Light from everywhere, so that the sides of a shape keep the colours of the palette.
+_AMBIENT = 0.3
+# By how much lines are drawn in front of the faces that they run between, in VTK's units of depth.
+_IN_FRONT = (-2, -30)
+
 
 @pyvista.register_dataset_accessor("rw", pyvista.PolyData)
 class SegmentationAccessor:
@@ -88,10 +93,12 @@ class SegmentationAccessor:
         colors = np.full((self._mesh.n_cells, 3), 128, dtype=np.uint8)
         colors[self._faces()] = face_colors(vertices, faces, labels)
         shown.cell_data["colors"] = colors
-        canvas.add_mesh(shown, scalars="colors", rgb=True, smooth_shading=shading)
+        canvas.add_mesh(shown, scalars="colors", rgb=True, smooth_shading=shading, ambient=_AMBIENT)
         lines = self._edges_between(labels) if curves is None else _polylines(curves)
         if boundary_width > 0 and lines.n_cells > 0:
-            canvas.add_mesh(lines, color=boundary_color, line_width=boundary_width)
+            actor = canvas.add_mesh(lines, color=boundary_color, line_width=boundary_width, lighting=False)
+            actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            actor.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(*_IN_FRONT)
         return canvas if plotter is not None else canvas.show(**options)
 
     def boundaries(self, name: str = "segment") -> pyvista.PolyData:
@@ -101,7 +108,7 @@ class SegmentationAccessor:
     def _faces(self) -> slice:
         """Tell which cells are faces: points and lines come first."""
         first = self._mesh.n_verts + self._mesh.n_lines
-        return slice(first, first + self._mesh.n_faces_strict)
+        return slice(first, first + self._mesh.GetNumberOfPolys())
 
     def _fill(self, name: str, labels: NDArray[np.int64]) -> None:
         values = np.full(self._mesh.n_cells, -1, dtype=np.int64)

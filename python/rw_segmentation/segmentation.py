@@ -75,10 +75,8 @@ class Policy:
         bases = ("automatic", "paper", "coarse", "coarse_paper")
         if self.base not in bases:
             raise ValueError(f"policy {self.base!r} is none of {', '.join(bases)}, surfaces")
-        for name in ("number_of_seeds",):
-            value = getattr(self, name)
-            if value is not None and value < 1:
-                raise ValueError(f"{name} is {value}, but must be at least 1")
+        if self.number_of_seeds is not None and self.number_of_seeds < 1:
+            raise ValueError(f"number_of_seeds is {self.number_of_seeds}, but must be at least 1")
 
     def choices(self, segments: int | None = None, difference: str | None = None) -> _core.Choices:
         """Make what the compiled module takes."""
@@ -88,7 +86,17 @@ class Policy:
         choices.seeds = self.number_of_seeds
         choices.segments = segments
         choices.difference = difference
-        for name in ("seeding", "merge_cost", "solver", "smoothing", "convex_weight", "measure", "radius", "sigma", "cap"):
+        for name in (
+            "seeding",
+            "merge_cost",
+            "solver",
+            "smoothing",
+            "convex_weight",
+            "measure",
+            "radius",
+            "sigma",
+            "cap",
+        ):
             setattr(choices, name, getattr(self, name))
         return choices
 
@@ -178,7 +186,7 @@ class Hierarchy:
         count = self.number_of_fragments
         heights = np.maximum.accumulate(self.costs) if len(self.costs) else self.costs
         top = float(heights[-1]) * 1.1 if len(heights) else 1.0
-        rows = [(int(a), int(b), float(height)) for (a, b), height in zip(self.merges, heights)]
+        rows = [(int(a), int(b), float(height)) for (a, b), height in zip(self.merges, heights, strict=True)]
         merged = {region for a, b, _ in rows for region in (a, b)}
         roots = [region for region in range(count + len(rows)) if region not in merged]
         while len(roots) > 1:
@@ -213,9 +221,7 @@ def difference_of(
     if values is None:
         return None, features
     if values.shape != features.shape:
-        raise ValueError(
-            f"the difference has {values.size} values, but the mesh {features.size} interior edges"
-        )
+        raise ValueError(f"the difference has {values.size} values, but the mesh {features.size} interior edges")
     return None, np.maximum(values, features)
 
 
@@ -287,14 +293,14 @@ def hierarchy_of_mesh(
     if any(label is not None for _, label in given):
         raise ValueError("seeds: labels have no meaning where fragments are merged, give faces alone")
     if policy == "surfaces":
-        for name, value in (("difference", difference), ("face_features", face_features), ("seeds", seeds)):
+        for argument, value in (("difference", difference), ("face_features", face_features), ("seeds", seeds)):
             if value is not None:
-                raise ValueError(f"{name}: surfaces are found without it, leave it out or choose another policy")
+                raise ValueError(f"{argument}: surfaces are found without it, leave it out or choose another policy")
         with reporting(progress, "surfaces") as told:
             return Hierarchy(_core.hierarchy_of_surfaces(mesh, -1.0, 1.0, walls_of(walls), told))
     chosen = policy_of(policy)
     if chosen.base in ("coarse", "coarse_paper"):
-        raise ValueError("the coarse policies merge nothing: give seeding=\"coarse\" instead, or call segment()")
+        raise ValueError('the coarse policies merge nothing: give seeding="coarse" instead, or call segment()')
     name, values = difference_of(mesh, chosen, difference, face_features)
     faces_of_seeds = np.array([face for face, _ in given], dtype=np.int64)
     with reporting(progress, "segmentation") as told:

@@ -52,7 +52,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Cone:
-    """A cone by its apex, the axis along which it opens, and the angle between the two in radians; `residual` as for `Plane`."""
+    """A cone by its apex, the axis along which it opens, and the angle between the two in radians."""
 
     apex: Vector
     axis: Vector

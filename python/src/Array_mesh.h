@@ -92,9 +92,9 @@ struct Coordinates {
 /// stay where the user holds them.
 class Array_mesh {
  public:
-  Coordinates coordinates;            ///< of the user's vertices; they must outlive the mesh
-  std::vector<Index> copied_vertex;   ///< the user's vertex of each that follows the user's
-  std::vector<Point> added_points;    ///< of vertices that follow these
+  Coordinates coordinates;                ///< of the user's vertices; they must outlive the mesh
+  std::vector<Index> copied_vertex;       ///< the user's vertex of each that follows the user's
+  std::vector<Point> added_points;        ///< of vertices that follow these
   std::vector<Index> next, target, face;  ///< by halfedge; the border has no face
   std::vector<Index> halfedge_of_face;
   std::vector<Index> halfedge_of_vertex;  ///< one that ends there; filled by `find_halfedges_of_vertices()`
@@ -118,8 +118,7 @@ class Array_mesh {
   }
   Point point(Index vertex) const {
     const Index known = vertex_of_user(vertex);
-    return known != none ? coordinates.point(known)
-                         : added_points[vertex - coordinates.number - copied_vertex.size()];
+    return known != none ? coordinates.point(known) : added_points[vertex - coordinates.number - copied_vertex.size()];
   }
 
   /// What changes a mesh asks for.

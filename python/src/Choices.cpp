@@ -36,12 +36,11 @@ RW::Dihedral_difference_policy angles_of(const Choices& choices, const segment_m
                                          bool are_seeds_given) {
   RW::Dihedral_difference_policy angles = segment_mesh::angles_of(method.difference);
   if (method.difference == segment_mesh::Difference::concavity && (are_seeds_given || choices.is_coarse)) {
-    angles.ordinary_difference = 0;                       // see Options.h of the tool for these numbers
+    angles.ordinary_difference = 0;  // see Options.h of the tool for these numbers
     if (are_seeds_given) angles.convex_weight = 0.02;
   }
   angles.convex_weight = choices.convex_weight.value_or(angles.convex_weight);
-  angles.measure =
-      chosen(segment_mesh::measure_names, choices.measure, "measure").value_or(angles.measure);
+  angles.measure = chosen(segment_mesh::measure_names, choices.measure, "measure").value_or(angles.measure);
   return angles;
 }
 

@@ -29,9 +29,9 @@ segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given);
 
 /// What the walk from given seeds goes by.
 struct Walk_ground {
-  Dual mesh;                        ///< with its own normals
-  Dual shape;                       ///< with those of the shape
-  std::vector<double> difference;   ///< by edge of the dual mesh; empty if conductances were given and nothing else asks
+  Dual mesh;                       ///< with its own normals
+  Dual shape;                      ///< with those of the shape
+  std::vector<double> difference;  ///< by edge of the dual mesh; empty if conductances were given and nothing else asks
   std::vector<double> conductance;  ///< by edge of the mesh
 };
 

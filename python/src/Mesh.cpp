@@ -154,8 +154,7 @@ nb::tuple interior_edges(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh::Mesh(Any_array vertices, Any_array corners, std::optional<Integers> offsets, std::size_t degree,
-           bool is_repaired)
+Mesh::Mesh(Any_array vertices, Any_array corners, std::optional<Integers> offsets, std::size_t degree, bool is_repaired)
     : vertices_(std::move(vertices)), corners_(std::move(corners)), offsets_(std::move(offsets)) {
   const Coordinates coordinates = coordinates_of(vertices_);
   polygons_ = polygons_of(corners_, offsets_, degree);
@@ -214,9 +213,9 @@ std::vector<char> Mesh::walls(const std::optional<Pairs>& pairs) const {
       if (v < 0 || static_cast<std::size_t>(v) >= coordinates.number)
         fail("there is no vertex " + std::to_string(v) + ", but " + std::to_string(coordinates.number) +
              ", the first is vertex 0");
-    const bool is_any = known.between(coordinates.point(static_cast<std::size_t>(ends[0])),
-                                      coordinates.point(static_cast<std::size_t>(ends[1])),
-                                      [&](Edge e) { is_wall[e.idx()] = true; });
+    const bool is_any =
+        known.between(coordinates.point(static_cast<std::size_t>(ends[0])),
+                      coordinates.point(static_cast<std::size_t>(ends[1])), [&](Edge e) { is_wall[e.idx()] = true; });
     if (!is_any)
       fail("no edge of the mesh joins vertex " + std::to_string(ends[0]) + " and vertex " + std::to_string(ends[1]));
   }

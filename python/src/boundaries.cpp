@@ -58,8 +58,8 @@ nb::dict arrays_of(const Mesh& mesh, const Curve& curve, const std::vector<std::
   result["barycentric"] = table_of(std::move(barycentric), 3);
   result["is_closed"] = curve.is_closed;
   result["is_smoothed"] = curve.is_smoothed;
-  result["segments"] = nb::make_tuple(static_cast<std::int64_t>(curve.segments[0]),
-                                      static_cast<std::int64_t>(curve.segments[1]));
+  result["segments"] =
+      nb::make_tuple(static_cast<std::int64_t>(curve.segments[0]), static_cast<std::int64_t>(curve.segments[1]));
   return result;
 }
 
@@ -98,7 +98,8 @@ std::vector<Curve> curves_of(const Mesh& mesh, const nb::list& arrays) {
     const auto barycentric = nb::cast<Rows>(known["barycentric"]);
     const auto segments = nb::cast<Integers>(known["segments"]);
     if (barycentric.shape(0) != faces.shape(0) || barycentric.shape(1) != 3 || segments.shape(0) != 2)
-      throw std::invalid_argument("a curve needs as many faces as rows of three barycentric coordinates, and two segments");
+      throw std::invalid_argument(
+          "a curve needs as many faces as rows of three barycentric coordinates, and two segments");
     Curve curve;
     curve.is_closed = nb::cast<bool>(known["is_closed"]);
     curve.segments = {static_cast<std::size_t>(segments(0)), static_cast<std::size_t>(segments(1))};
@@ -112,7 +113,8 @@ std::vector<Curve> curves_of(const Mesh& mesh, const nb::list& arrays) {
 /// Notes which face each new one was part of.
 struct Parent_notes : RW::Default_split_visitor<Array_mesh> {
   Face divided;
-  std::shared_ptr<std::vector<Index>> parents = std::make_shared<std::vector<Index>>();  // the library copies the visitor
+  std::shared_ptr<std::vector<Index>> parents =
+      std::make_shared<std::vector<Index>>();  // the library copies the visitor
 
   void before_subface_creations(Face face, const Array_mesh&) { divided = face; }
   void after_subface_created(Face, const Array_mesh&) { parents->push_back((*parents)[divided.idx()]); }
@@ -152,9 +154,8 @@ nb::tuple split_along_boundaries(const Mesh& mesh, const Integers& labels, const
     std::vector<char> is_boundary(num_edges(halfedges), false);
     const Parent_notes notes;
     for (Index f = 0; f < halfedges.number_of_faces(); ++f) notes.parents->push_back(f);
-    RW::split_along_boundaries(
-        halfedges, curves, map_over<Face>(label),
-        CGAL::parameters::visitor(notes).edge_is_constrained_map(map_over<Edge>(is_boundary)));
+    RW::split_along_boundaries(halfedges, curves, map_over<Face>(label),
+                               CGAL::parameters::visitor(notes).edge_is_constrained_map(map_over<Edge>(is_boundary)));
     return Split(halfedges, label, *notes.parents, mesh.user_faces(), is_boundary);
   }();
   return nb::make_tuple(table_of(std::move(split.points), 3), table_of(std::move(split.faces), 3),
@@ -174,7 +175,10 @@ void define_boundaries(nb::module_& m) {
       .def_rw("largest_displacement", &RW::Boundary_smoothing::largest_displacement)
       .def_rw("steps", &RW::Boundary_smoothing::steps);
   m.def("smooth_boundaries", &smooth_boundaries, nb::arg("mesh"), nb::arg("labels"), nb::arg("smoothing"),
-        nb::arg("walls").none(), nb::arg("progress").none());
+        nb::arg("walls").none(), nb::arg("progress").none(),
+        nb::sig("def smooth_boundaries(mesh: Mesh, labels: numpy.typing.NDArray[numpy.int64], "
+                "smoothing: BoundarySmoothing, walls: numpy.typing.NDArray[numpy.int64] | None, "
+                "progress: object | None) -> list[dict[str, typing.Any]]"));
   m.def("split_along_boundaries", &split_along_boundaries, nb::arg("mesh"), nb::arg("labels"), nb::arg("curves"),
         nb::sig("def split_along_boundaries(mesh: Mesh, labels: numpy.typing.NDArray[numpy.int64], "
                 "curves: list[dict[str, object]]) -> tuple[numpy.typing.NDArray[numpy.float64], "

@@ -25,7 +25,8 @@ Hierarchy hierarchy(const Mesh& mesh, const Choices& choices, const Integers& se
     std::vector<Face> given;
     for (std::size_t i = 0; i < seeds.shape(0); ++i) given.push_back(mesh.face(seeds(i), "seed"));
     const Dual dual = mesh.dual(walls);
-    const std::vector<double> by_edge = difference ? mesh.by_edge(*difference, "the difference") : std::vector<double>();
+    const std::vector<double> by_edge =
+        difference ? mesh.by_edge(*difference, "the difference") : std::vector<double>();
     const auto levels = RW::hierarchy_via_random_walks(dual, policies_of(method, dual, by_edge), given,
                                                        CGAL::parameters::callback(callback));
     return hierarchy_of(mesh, levels, segment_mesh::stop_by_shape(method.merge_cost));
@@ -84,10 +85,11 @@ void define_hierarchy(nb::module_& m) {
       .def_ro("suggested", &Hierarchy::suggested)
       .def_prop_ro("merges", &merges, nb::rv_policy::move)
       .def_prop_ro("costs", &costs, nb::rv_policy::move)
-      .def_prop_ro("fragment_of_face",
-                   [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); },
-                   nb::rv_policy::move)
-      .def_prop_ro("report", &report)
+      .def_prop_ro(
+          "fragment_of_face",
+          [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); },
+          nb::rv_policy::move)
+      .def_prop_ro("report", &report, nb::for_getter(nb::sig("def report(self) -> dict[str, typing.Any]")))
       .def("labels", &labels, nb::arg("number"));
   m.def("hierarchy", &hierarchy, nb::arg("mesh"), nb::arg("choices"), nb::arg("seeds"), nb::arg("difference").none(),
         nb::arg("walls").none(), nb::arg("progress").none());

@@ -41,9 +41,9 @@ nb::tuple curvatures(const Mesh& mesh, double radius, bool is_in_edge_lengths, c
   RW::Curvature_report report;
   std::vector<double> numbers = without_lock(progress, [&](const Callback& callback) {
     std::vector<RW::Surface_curvatures> measured(num_faces(mesh.halfedges()));
-    report = RW::integral_invariant_curvatures(mesh.halfedges(), map_over<Face>(measured),
-                                               radius_of(radius, is_in_edge_lengths),
-                                               CGAL::parameters::callback(callback));
+    report =
+        RW::integral_invariant_curvatures(mesh.halfedges(), map_over<Face>(measured),
+                                          radius_of(radius, is_in_edge_lengths), CGAL::parameters::callback(callback));
     std::vector<double> rows, vectors;
     for (const RW::Surface_curvatures& c : measured) {
       rows.insert(rows.end(), {c.max_curvature, c.min_curvature, c.mean_curvature_by_volume, c.offset});
@@ -61,8 +61,7 @@ Array<double> dihedral_difference(const Mesh& mesh, double convex_weight, const 
   return array_of(without_lock(progress, [&](const Callback& callback) {
     const RW::Dihedral_difference_policy policy = {
         convex_weight, segment_mesh::choice_of(segment_mesh::measure_names, measure), ordinary_difference};
-    const Dual shape =
-        RW::smoothed_shape(mesh.dual(), smoothing_of(smoothing), CGAL::parameters::callback(callback));
+    const Dual shape = RW::smoothed_shape(mesh.dual(), smoothing_of(smoothing), CGAL::parameters::callback(callback));
     return by_interior_edge(mesh, shape, policy(shape));
   }));
 }
@@ -103,8 +102,7 @@ Array<double> thickness(const Mesh& mesh, std::size_t rays, double cone_angle, b
   return array_of(without_lock(progress, [&](const Callback& callback) {
     const RW::Thickness_of_faces numbers = {rays, cone_angle, is_smoothed, segment_mesh::choice_of(scales, scale)};
     std::vector<double> values(num_faces(mesh.halfedges()));
-    RW::thickness_of_all_faces(mesh.halfedges(), map_over<Face>(values), numbers,
-                               CGAL::parameters::callback(callback));
+    RW::thickness_of_all_faces(mesh.halfedges(), map_over<Face>(values), numbers, CGAL::parameters::callback(callback));
     return mesh.by_user_face<double>(values);
   }));
 }

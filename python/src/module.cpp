@@ -14,8 +14,8 @@
 NB_MODULE(_core, m) {
   m.doc() = "The library over arrays, as the functions of rw_segmentation call it.";
   const auto part = [](int number) { return std::to_string(number); };
-  m.attr("__version__") = part(RW_SEGMENTATION_VERSION_MAJOR) + "." + part(RW_SEGMENTATION_VERSION_MINOR) + "." +
-                          part(RW_SEGMENTATION_VERSION_PATCH);
+  m.attr("version") = part(RW_SEGMENTATION_VERSION_MAJOR) + "." + part(RW_SEGMENTATION_VERSION_MINOR) + "." +
+                      part(RW_SEGMENTATION_VERSION_PATCH);
   nanobind::exception<RW_segmentation::Cancelled>(m, "Cancelled", PyExc_RuntimeError);
   rw_python::define_mesh(m);
   rw_python::define_choices(m);

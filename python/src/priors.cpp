@@ -59,8 +59,8 @@ Network_with_evidence network_of(const Walk_ground& ground, const std::vector<do
 /// Labels by the highest probability, and for what no evidence reaches the next ones, one a component.
 std::vector<std::int64_t> labels_of(const Walk_ground& ground, const RW::Potentials& potentials) {
   const Dual& mesh = ground.mesh;
-  const RW::internal::Components components(
-      mesh.graph(), [&](Index e) { return ground.conductance[mesh.edge(e).idx()] > 0; });
+  const RW::internal::Components components(mesh.graph(),
+                                            [&](Index e) { return ground.conductance[mesh.edge(e).idx()] > 0; });
   std::vector<std::int64_t> next(components.count, -1), labels(mesh.number_of_faces());
   std::int64_t unused = potentials.cols();
   for (Index f = 0; f < labels.size(); ++f) {

@@ -92,8 +92,8 @@ void require_finite(const Coordinates& coordinates, const Faces& faces) {
   std::visit(
       [&](const auto* rows) {
         for (std::size_t v = 0; v < is_used.size(); ++v)
-          if (is_used[v] && !(std::isfinite(rows[3 * v]) && std::isfinite(rows[3 * v + 1]) &&
-                              std::isfinite(rows[3 * v + 2])))
+          if (is_used[v] &&
+              !(std::isfinite(rows[3 * v]) && std::isfinite(rows[3 * v + 1]) && std::isfinite(rows[3 * v + 2])))
             throw std::invalid_argument("vertex " + text(v) + " has a coordinate that is not finite");
       },
       coordinates.rows);
@@ -154,10 +154,10 @@ Twins twins_of(const Faces& faces, std::size_t number_of_vertices) {
       twins.of_corner[first[0]] = first[1];
       twins.of_corner[first[1]] = first[0];
     } else if (twins.fault.empty()) {
-      twins.fault = last - first == 2
-                        ? "two neighbouring faces at vertex " + text(faces.corners[first[0]]) + " look to opposite sides"
-                        : text(static_cast<std::size_t>(last - first)) + " faces meet at an edge of vertex " +
-                              text(faces.corners[first[0]]);
+      twins.fault = last - first == 2 ? "two neighbouring faces at vertex " + text(faces.corners[first[0]]) +
+                                            " look to opposite sides"
+                                      : text(static_cast<std::size_t>(last - first)) +
+                                            " faces meet at an edge of vertex " + text(faces.corners[first[0]]);
     }
   });
   return twins;
@@ -224,8 +224,7 @@ Faces sound_faces(const Faces& all, std::vector<Index>& kept) {
   }
   std::sort(keys.begin(), keys.end());
   std::vector<char> is_kept(all.size(), false);
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    is_kept[keys[i].second] = i == 0 || keys[i].first != keys[i - 1].first;
+  for (std::size_t i = 0; i < keys.size(); ++i) is_kept[keys[i].second] = i == 0 || keys[i].first != keys[i - 1].first;
   Faces sound;
   for (std::size_t f = 0; f < all.size(); ++f) {
     if (!is_kept[f]) continue;
@@ -386,8 +385,7 @@ Read_mesh read_mesh(const Coordinates& coordinates, const Polygons& polygons, bo
   Twins twins = twins_of(faces, coordinates.number);
   if (!is_repaired && !twins.fault.empty())
     throw std::invalid_argument("the faces do not form an oriented surface: " + twins.fault);
-  if (is_repaired &&
-      (!twins.fault.empty() || has_coinciding_border_edges(coordinates, faces, twins.of_corner))) {
+  if (is_repaired && (!twins.fault.empty() || has_coinciding_border_edges(coordinates, faces, twins.of_corner))) {
     faces = repaired(coordinates, std::move(faces), result);
     twins = twins_of(faces, coordinates.number);
   }

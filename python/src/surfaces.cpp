@@ -25,8 +25,7 @@ Hierarchy hierarchy_of_surfaces(const Mesh& mesh, double noise, double stop_cost
                                 const nb::object& progress) {
   return without_lock(progress, [&](const auto& callback) {
     const RW::Surface_segmentation numbers = numbers_of(noise, stop_cost);
-    const auto levels =
-        RW::hierarchy_of_surfaces(mesh.dual(walls), numbers, CGAL::parameters::callback(callback));
+    const auto levels = RW::hierarchy_of_surfaces(mesh.dual(walls), numbers, CGAL::parameters::callback(callback));
     return hierarchy_of(mesh, levels, [&](const RW::Merge_tree& tree) { return numbers.stop(tree); });
   });
 }
@@ -66,7 +65,9 @@ void define_surfaces(nb::module_& m) {
   m.def("hierarchy_of_surfaces", &hierarchy_of_surfaces, nb::arg("mesh"), nb::arg("noise"), nb::arg("stop_cost"),
         nb::arg("walls").none(), nb::arg("progress").none());
   m.def("surfaces_of_segments", &surfaces_of_segments, nb::arg("mesh"), nb::arg("labels"), nb::arg("segments"),
-        nb::arg("noise"), nb::arg("progress").none());
+        nb::arg("noise"), nb::arg("progress").none(),
+        nb::sig("def surfaces_of_segments(mesh: Mesh, labels: numpy.typing.NDArray[numpy.int64], segments: int, "
+                "noise: float, progress: object | None) -> list[dict[str, typing.Any]]"));
 }
 
 }  // namespace rw_python

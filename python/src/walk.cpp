@@ -188,7 +188,7 @@ void define_walk(nb::module_& m) {
       .def("probabilities", &Walk::probabilities, nb::arg("progress").none(),
            nb::sig("def probabilities(self, progress: object | None) -> tuple[numpy.typing.NDArray[numpy.int64], "
                    "numpy.typing.NDArray[numpy.float64]]"))
-      .def("report", &Walk::report);
+      .def("report", &Walk::report, nb::sig("def report(self) -> dict[str, int]"));
 }
 
 }  // namespace rw_python

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from meshes import Mesh, read_off
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
 from rw_segmentation import Polygons
 
 
@@ -66,7 +67,7 @@ def sphere(subdivisions: int = 2, radius: float = 1.0, center: tuple[float, floa
 def together(*meshes: Mesh) -> Mesh:
     """Put meshes of triangles side by side in one."""
     begin = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    faces = [np.asarray(mesh.faces) + start for mesh, start in zip(meshes, begin)]
+    faces = [np.asarray(mesh.faces) + start for mesh, start in zip(meshes, begin, strict=False)]
     return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
 
 

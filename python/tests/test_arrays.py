@@ -7,12 +7,13 @@ import warnings
 
 import numpy as np
 import pytest
-import rw_segmentation as rw
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
-from meshes import Mesh, grid, same_partition, sphere, together
 from numpy.typing import NDArray
+
+import rw_segmentation as rw
+from meshes import Mesh, grid, same_partition, sphere, together
 
 TETRAHEDRON = Mesh(
     np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float),
@@ -93,7 +94,11 @@ def test_mixed_polygons_may_be_lists(cube: Mesh) -> None:
         (TETRAHEDRON.vertices, TETRAHEDRON.faces - 1, "face 0 has a corner at vertex -1"),
         (TETRAHEDRON.vertices, TETRAHEDRON.faces + 2**40, "has a corner at vertex 1099511627776"),
         (np.zeros((0, 3)), TETRAHEDRON.faces, "there are 0 vertices"),
-        (TETRAHEDRON.vertices, rw.Polygons([0, 1, 2], [0, 2]), "the last offset is 2, but must be the number of corners, 3"),
+        (
+            TETRAHEDRON.vertices,
+            rw.Polygons([0, 1, 2], [0, 2]),
+            "the last offset is 2, but must be the number of corners, 3",
+        ),
         (TETRAHEDRON.vertices, rw.Polygons([0, 1, 2], [1, 3]), "offset 0 is 1"),
         (TETRAHEDRON.vertices, rw.Polygons([0, 1, 2], [0, 4, 3]), "offset 1 is 4"),
         (TETRAHEDRON.vertices, rw.Polygons([0, 1, 2], [0, -1, 3]), "offset 1 is -1"),
@@ -101,7 +106,9 @@ def test_mixed_polygons_may_be_lists(cube: Mesh) -> None:
         (TETRAHEDRON.vertices, rw.Polygons([[0, 1, 2]], [0, 3]), "in one row"),
     ],
 )
-def test_wrong_arrays_are_refused_with_the_reason(vertices: NDArray[np.float64], faces: rw.Polygons, message: str) -> None:
+def test_wrong_arrays_are_refused_with_the_reason(
+    vertices: NDArray[np.float64], faces: rw.Polygons, message: str
+) -> None:
     for call in (rw.segment, rw.hierarchy, rw.RandomWalk, rw.segment_surfaces, rw.curvatures, rw.interior_edges):
         with pytest.raises(ValueError, match=message):
             call(vertices, faces)
@@ -200,7 +207,7 @@ def test_each_face_gets_a_label_though_it_is_left_out_of_the_mesh() -> None:
     assert labels[2 * half + 2] == labels[half]
     with (
         pytest.warns(rw.MeshRepairWarning, match="left out|left 3"),
-        pytest.raises(ValueError, match="seed .* was left out of the mesh"),
+        pytest.raises(ValueError, match=r"seed .* was left out of the mesh"),
     ):
         rw.segment(mesh.vertices, faces, seeds=[2 * half + 1])
     with pytest.raises(ValueError, match="no face has three different corners"):

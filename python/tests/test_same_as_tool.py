@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 import rw_segmentation as rw
 from meshes import Mesh, read_off
-from numpy.typing import NDArray
 
 # Triangles and polygons, one component and several, closed and with borders, parts of machines, soups to repair.
 MESHES = [
@@ -38,7 +39,10 @@ MODES: dict[str, tuple[list[str], Callable[[Mesh], NDArray[np.int64]]]] = {
     "coarse": (["--coarse"], lambda m: rw.segment(*m, policy="coarse")),
     "coarse, paper": (["--coarse", "--paper"], lambda m: rw.segment(*m, policy="coarse_paper")),
     "surfaces": (["--engineering"], lambda m: rw.segment(*m, policy="surfaces")),
-    "seeds": (["--seed", "0", "--seed", "5=3", "--seed", "3"], lambda m: rw.segment(*m, seeds=[(0, 0), (5, 3), (3, 1)])),
+    "seeds": (
+        ["--seed", "0", "--seed", "5=3", "--seed", "3"],
+        lambda m: rw.segment(*m, seeds=[(0, 0), (5, 3), (3, 1)]),
+    ),
     "seeds and segments": (["--seed", "4", "--segments", "6"], lambda m: rw.segment(*m, 6, seeds=[4])),
     "curvature": (["--difference", "curvature"], lambda m: rw.segment(*m, difference="curvature")),
     "dihedral": (["--difference", "dihedral"], lambda m: rw.segment(*m, difference="dihedral")),

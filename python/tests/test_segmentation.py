@@ -9,7 +9,6 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
-import rw_segmentation as rw
 import scipy.cluster.hierarchy
 import scipy.sparse as sp
 import scipy.sparse.linalg
@@ -17,8 +16,10 @@ import sklearn.metrics
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
-from meshes import Mesh, grid, same_partition, sphere, together
 from numpy.typing import NDArray
+
+import rw_segmentation as rw
+from meshes import Mesh, grid, same_partition, sphere, together
 
 
 def laplacian(mesh: Mesh, conductance: NDArray[np.float64]) -> sp.csr_matrix:
@@ -67,7 +68,7 @@ def test_levels_are_nested_and_have_as_many_segments_as_asked_for(elephant: Mesh
 
 @pytest.mark.parametrize("parts", [1, 3])
 def test_scipy_cuts_the_linkage_into_the_same_segments(elephant: Mesh, parts: int) -> None:
-    mesh = together(*(Mesh(elephant.vertices + [3.0 * i, 0, 0], elephant.faces) for i in range(parts)))
+    mesh = together(*(Mesh(elephant.vertices + np.array([3.0 * i, 0, 0]), elephant.faces) for i in range(parts)))
     levels = rw.hierarchy(*mesh)
     linkage = levels.to_linkage()
     assert scipy.cluster.hierarchy.is_valid_linkage(linkage)
@@ -183,7 +184,9 @@ def test_segments_follow_the_features_of_faces() -> None:
 def test_the_larger_of_difference_and_features_counts() -> None:
     mesh = grid(10, 6)
     along = (mesh.vertices[mesh.faces][:, :, 1].mean(axis=1) > 3).astype(float)
-    labels = rw.segment(*mesh, 4, difference="dihedral", face_features=along, policy=rw.Policy(convex_weight=1, smoothing=0))
+    labels = rw.segment(
+        *mesh, 4, difference="dihedral", face_features=along, policy=rw.Policy(convex_weight=1, smoothing=0)
+    )
     across = mesh.vertices[mesh.faces][:, :, 0].mean(axis=1) > 5
     assert same_partition(labels, (2 * across + along).astype(np.int64))
 
