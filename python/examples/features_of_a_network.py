@@ -39,7 +39,9 @@ for column, (title, labels) in enumerate(
     (("features", by_features), ("votes", votes.argmax(axis=1)), ("refined", refined.labels))
 ):
     plotter.subplot(0, column)
-    rw.to_pyvista(vertices, faces, labels).rw.plot_segments(plotter=plotter, boundary_width=2 if title != "votes" else 0)
+    rw.to_pyvista(vertices, faces, labels).rw.plot_segments(
+        plotter=plotter, boundary_width=2 if title != "votes" else 0
+    )
     plotter.add_text(title, font_size=10)
     plotter.view_xz()
 plotter.screenshot(figure_path("features_of_a_network.png"))

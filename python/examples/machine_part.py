@@ -28,7 +28,9 @@ labels, surfaces = rw.segment_surfaces(*rw.from_trimesh(mesh))
 
 table = pd.DataFrame([dataclasses.asdict(surface) for surface in surfaces])
 table.insert(0, "faces", np.bincount(labels, minlength=len(surfaces)))
-print(table[[column for column in ("type", "faces", "radius", "half_angle", "residual") if column in table]].to_string())
+print(
+    table[[column for column in ("type", "faces", "radius", "half_angle", "residual") if column in table]].to_string()
+)
 print(json.dumps(dataclasses.asdict(surfaces[0])))
 
 shown = rw.to_pyvista(*rw.from_trimesh(mesh), labels)

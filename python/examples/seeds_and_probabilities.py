@@ -19,7 +19,9 @@ middle = (mesh.bounds[0] + mesh.bounds[1]) / 2
 walk.add_seed(int(np.linalg.norm(centers - centers.mean(axis=0), axis=1).argmin()), 0)
 for angle in np.radians([-70, -28, -9, 9, 28]):
     direction = np.array([np.sin(angle), 0, np.cos(angle)])
-    walk.add_seed(int((centers @ direction - 2 * np.abs(np.cross(centers, direction)).sum(axis=1)).argmax()), len(walk.seeds))
+    walk.add_seed(
+        int((centers @ direction - 2 * np.abs(np.cross(centers, direction)).sum(axis=1)).argmax()), len(walk.seeds)
+    )
 labels, probabilities = walk.labels(), walk.probabilities()
 print(f"{len(walk.seeds)} seeds, {len(np.unique(labels))} segments")
 

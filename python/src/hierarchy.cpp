@@ -89,7 +89,7 @@ void define_hierarchy(nb::module_& m) {
           "fragment_of_face",
           [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); },
           nb::rv_policy::move)
-      .def_prop_ro("report", &report, nb::for_getter(nb::sig("def report(self) -> dict[str, typing.Any]")))
+      .def_prop_ro("report", &report, nb::for_getter(nb::sig("def report(self, /) -> dict[str, typing.Any]")))
       .def("labels", &labels, nb::arg("number"));
   m.def("hierarchy", &hierarchy, nb::arg("mesh"), nb::arg("choices"), nb::arg("seeds"), nb::arg("difference").none(),
         nb::arg("walls").none(), nb::arg("progress").none());
