@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What a call from Python costs beside C++: ``python benchmark_call.py SEGMENT_MESH MESH.off [ROUNDS]``.
 
-The C++ side is the tool segment_mesh, whose report tells how long it took to make a mesh of the file's arrays and to segment it;
-reading and writing are not counted. Both run on one core, in turns, and the least time of each counts: whatever else the machine
+The C++ side is the tool segment_mesh, whose report tells how long it took to make a mesh of the arrays and to segment it;
+reading and writing are not counted. Both run on one core, in turns, and the least time of each counts: what else a machine
 does only adds to it. Memory is that of the process at its peak, less what it held before the call.
 """
 

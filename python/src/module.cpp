@@ -16,7 +16,8 @@ NB_MODULE(_core, m) {
   const auto part = [](int number) { return std::to_string(number); };
   m.attr("version") = part(RW_SEGMENTATION_VERSION_MAJOR) + "." + part(RW_SEGMENTATION_VERSION_MINOR) + "." +
                       part(RW_SEGMENTATION_VERSION_PATCH);
-  nanobind::exception<RW_segmentation::Cancelled>(m, "Cancelled", PyExc_RuntimeError);
+  nanobind::exception<RW_segmentation::Cancelled>(m, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
+      "The progress function of a call has returned False; nothing has changed.";
   rw_python::define_mesh(m);
   rw_python::define_choices(m);
   rw_python::define_hierarchy(m);

@@ -12,6 +12,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -28,14 +29,14 @@ class Walk {
   Walk(nb::object mesh, const Choices& choices, const std::optional<Numbers>& difference,
        const std::optional<Numbers>& conductance, const std::optional<Pairs>& walls, const nb::object& progress)
       : mesh_object_(std::move(mesh)), mesh_(nb::cast<const Mesh&>(mesh_object_)) {
-    without_lock(progress, [&](const auto& callback) {
+    walk_ = without_lock(progress, [&](const auto& callback) {
       const segment_mesh::Method method = method_of(choices, !choices.is_coarse);
       const Dual dual = mesh_.dual(walls);
       const auto by_edge = [&](const auto& values, const char* argument) {
         return values ? mesh_.by_edge(*values, argument) : std::vector<double>();
       };
-      make(method, choices.is_coarse, dual, by_edge(difference, "the difference"),
-           by_edge(conductance, "the conductance"), callback);
+      return made(method, choices.is_coarse, dual, by_edge(difference, "the difference"),
+                  by_edge(conductance, "the conductance"), callback);
     });
   }
 
@@ -149,24 +150,26 @@ class Walk {
     Walk& walk_;
   };
 
-  void make(const segment_mesh::Method& method, bool places_seeds, const Dual& dual,
-            const std::vector<double>& difference, const std::vector<double>& conductance,
-            const std::function<bool(double)>& callback) {
+  std::unique_ptr<Random_walk> made(const segment_mesh::Method& method, bool places_seeds, const Dual& dual,
+                                    const std::vector<double>& difference, const std::vector<double>& conductance,
+                                    const std::function<bool(double)>& callback) {
     const segment_mesh::Policies policies = policies_of(method, dual, difference);
     Walk_ground ground = walk_ground(mesh_, dual, policies, conductance, places_seeds, part(callback, 0, 0.8));
     // Refers to this alone: each call has a callback of its own.
     const auto of_call = CGAL::parameters::callback(
         std::function<bool(double)>([this](double fraction) { return !callback_ || (*callback_)(fraction); }));
-    walk_.emplace(dual, RW::as_conductance(map_over<Edge>(ground.conductance)), policies.solver, of_call);
-    if (!places_seeds) return;
+    auto walk = std::make_unique<Random_walk>(dual, RW::as_conductance(map_over<Edge>(ground.conductance)),
+                                              policies.solver, of_call);
+    if (!places_seeds) return walk;
     std::size_t label = 0;
     for (const auto face : policies.seeding(ground.shape, ground.difference, {}, RW::Progress(part(callback, 0.8, 1))))
-      walk_->add_seed(dual.face(face), label++);
+      walk->add_seed(dual.face(face), label++);
+    return walk;
   }
 
   nb::object mesh_object_;
   const Mesh& mesh_;
-  std::optional<Random_walk> walk_;
+  std::unique_ptr<Random_walk> walk_;
   std::mutex mutex_;
   std::atomic<std::thread::id> user_{};
   const std::function<bool(double)>* callback_ = nullptr;

@@ -23,7 +23,8 @@ class Python_progress {
   /// \returns whether to go on
   bool operator()(double fraction) {
     const auto now = Clock::now();
-    if (fraction < 1 && now - last_ < interval) return true;
+    if (is_complete_ || (fraction < 1 && now - last_ < interval)) return true;
+    is_complete_ = fraction >= 1;
     last_ = now;
     const nb::gil_scoped_acquire lock;
     try {
@@ -46,18 +47,21 @@ class Python_progress {
   static constexpr std::chrono::milliseconds interval{30};
 
   nb::object function_;
+  bool is_complete_ = false;
   Clock::time_point last_ = Clock::now();
   std::exception_ptr error_;
 };
 
 /// Calls `work(callback)` while other threads of Python run. The callback is the library's: it tells the user's function
-/// and cancels for it, and for Ctrl-C.
+/// and cancels for it, and for Ctrl-C. The function is told the end in any case.
 template <class Work>
 auto without_lock(const nb::object& progress, const Work& work) {
   Python_progress told(progress);
   try {
     const nb::gil_scoped_release release;
-    return work(std::function<bool(double)>([&told](double fraction) { return told(fraction); }));
+    auto result = work(std::function<bool(double)>([&told](double fraction) { return told(fraction); }));
+    if (!told(1)) throw RW_segmentation::Cancelled();
+    return result;
   } catch (const RW_segmentation::Cancelled&) {
     told.rethrow();
     throw;

@@ -37,7 +37,7 @@ def run(example: str, *arguments: object, folder: Path) -> str:
 
 def assert_picture(path: Path) -> None:
     """Look whether a picture shows something in several colours."""
-    picture = np.asarray(pyvista.read(path).point_data[0])
+    picture = np.asarray(pyvista.read(path).active_scalars)
     assert len(np.unique(picture.reshape(-1, picture.shape[-1]), axis=0)) > 20
 
 
