@@ -13,7 +13,7 @@ import trimesh
 
 def mesh_from_command_line(made: trimesh.Trimesh) -> trimesh.Trimesh:
     """Read the file that is given as first argument; without one take what was made."""
-    if len(sys.argv) > 1 and Path(sys.argv[1]).is_file():
+    if len(sys.argv) > 1 and not sys.argv[1].endswith(".png"):
         mesh = trimesh.load_mesh(sys.argv[1], process=False)
         assert isinstance(mesh, trimesh.Trimesh)
         return mesh
@@ -28,11 +28,11 @@ def figure_path(default: str) -> Path:
 def hand() -> trimesh.Trimesh:
     """Make a palm with five fingers: one surface, bent inward where they meet."""
     parts = [trimesh.creation.icosphere(subdivisions=2, radius=1.0)]
-    parts[0].apply_scale((1.0, 0.45, 1.1))
-    for i, angle in enumerate(np.radians([-70, -28, -9, 9, 28])):
+    parts[0].apply_scale((0.75, 0.35, 0.85))
+    for i, angle in enumerate(np.radians([-75, -30, -10, 10, 30])):
         length = 1.1 if i else 0.8
-        finger = trimesh.creation.capsule(height=length, radius=0.2, count=(12, 12))
-        finger.apply_translation((0, 0, 0.75))
+        finger = trimesh.creation.capsule(height=length, radius=0.17, count=(24, 24))
+        finger.apply_translation((0, 0, 0.6))
         finger.apply_transform(trimesh.transformations.rotation_matrix(angle, (0, 1, 0)))
         parts.append(finger)
     return solid_union(parts)

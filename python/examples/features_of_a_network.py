@@ -34,13 +34,14 @@ refined = rw.refine(vertices, faces, votes)
 for name, labels in (("features", by_features), ("votes", votes.argmax(axis=1)), ("votes, refined", refined.labels)):
     print(f"{name}: Rand index error {rw.segmentation_errors(labels, true).rand_index:.3f}")
 
+colors = rw.segment_colors(vertices, faces, true)
 plotter = pyvista.Plotter(shape=(1, 3), off_screen=True, window_size=[1200, 420])
 for column, (title, labels) in enumerate(
     (("features", by_features), ("votes", votes.argmax(axis=1)), ("refined", refined.labels))
 ):
     plotter.subplot(0, column)
     rw.to_pyvista(vertices, faces, labels).rw.plot_segments(
-        plotter=plotter, boundary_width=2 if title != "votes" else 0
+        plotter=plotter, colors=colors, boundary_width=2 if title != "votes" else 0
     )
     plotter.add_text(title, font_size=10)
     plotter.view_xz()

@@ -17,10 +17,10 @@ import rw_segmentation as rw
 
 def pulley() -> trimesh.Trimesh:
     """Turn a profile round the axis: a hub, a cone, a groove and a rounded rim."""
-    turns = np.linspace(np.pi / 2, -np.pi / 2, 9)
+    turns = np.linspace(np.pi / 2, -np.pi / 2, 33)
     rim = np.column_stack([4 + 0.5 * np.cos(turns), 1 + 0.5 * np.sin(turns)])
     profile = [(0.8, 2.2), (1.6, 2.2), (2.4, 1.5), *rim, (2.4, 0.5), (2.4, 0), (0.8, 0), (0.8, 2.2)]
-    return trimesh.creation.revolve(np.array(profile), sections=64)
+    return trimesh.creation.revolve(np.array(profile)[::-1], sections=96)
 
 
 mesh = mesh_from_command_line(pulley())

@@ -15,9 +15,8 @@ centers = mesh.triangles_center
 
 # The palm, and the outermost face of each finger: seeds as a user would click them.
 walk = rw.RandomWalk(vertices, faces)
-middle = (mesh.bounds[0] + mesh.bounds[1]) / 2
 walk.add_seed(int(np.linalg.norm(centers - centers.mean(axis=0), axis=1).argmin()), 0)
-for angle in np.radians([-70, -28, -9, 9, 28]):
+for angle in np.radians([-75, -30, -10, 10, 30]):
     direction = np.array([np.sin(angle), 0, np.cos(angle)])
     walk.add_seed(
         int((centers @ direction - 2 * np.abs(np.cross(centers, direction)).sum(axis=1)).argmax()), len(walk.seeds)

@@ -97,12 +97,12 @@ def polygons_of(faces: Faces) -> tuple[NDArray[Any], NDArray[np.int64] | None, i
     return array.reshape(-1), None, array.shape[1]
 
 
-def mesh_of(vertices: ArrayLike, faces: Faces, repair: bool, stacklevel: int = 3) -> _core.Mesh:
-    """Make the compiled module's mesh, and warn of what was repaired."""
+def mesh_of(vertices: ArrayLike, faces: Faces, repair: bool, *, warn: bool = True) -> _core.Mesh:
+    """Make the compiled module's mesh, and warn the caller of the public function of what was repaired."""
     corners, offsets, degree = polygons_of(faces)
     mesh = _core.Mesh(vertices_of(vertices), corners, offsets, degree, repair)
-    if mesh.remarks:
-        warnings.warn("; ".join(mesh.remarks), MeshRepairWarning, stacklevel=stacklevel)
+    if warn and mesh.remarks:
+        warnings.warn("; ".join(mesh.remarks), MeshRepairWarning, stacklevel=3)
     return mesh
 
 

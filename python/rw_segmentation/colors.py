@@ -108,7 +108,7 @@ def segment_colors(
         Red, green and blue from 0 to 255 of each label. Those with the most neighbours choose first, of the colours that are
         far enough from the neighbours' the least used one.
     """
-    mesh = mesh_of(vertices, faces, repair)
+    mesh = mesh_of(vertices, faces, repair, warn=False)
     names, number = np.unique(labels_of(labels, mesh), return_inverse=True)
     sides = number.reshape(-1)[mesh.interior_edges()[0]]
     pairs = np.unique(np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1), axis=0)

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyvista
 
+from rw_segmentation._arrays import mesh_of
 from rw_segmentation.adapters import face_colors, from_pyvista
-from rw_segmentation.measures import interior_edges
 from rw_segmentation.segmentation import segment
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ class SegmentationAccessor:
         self,
         name: str = "segment",
         *,
+        colors: Mapping[int, tuple[int, int, int]] | None = None,
         curves: list[BoundaryCurve] | None = None,
         boundary_color: Any = "black",
         boundary_width: float = 3,
@@ -67,6 +69,8 @@ class SegmentationAccessor:
         ----------
         name : str
             Of the array in ``cell_data``; where it is missing, the surface is segmented first.
+        colors : mapping from int to three int, optional
+            Of each label, so that several pictures have the same ones; by default those of `segment_colors()`.
         curves : list of BoundaryCurve, optional
             Smooth boundaries to draw, see `smooth_boundaries()`; by default the edges between segments.
         boundary_color, boundary_width
@@ -90,9 +94,9 @@ class SegmentationAccessor:
         shading = bool(options.pop("smooth_shading", False))
         shown = self._mesh.copy(deep=False)
         shown.clear_data()
-        colors = np.full((self._mesh.n_cells, 3), 128, dtype=np.uint8)
-        colors[self._faces()] = face_colors(vertices, faces, labels)
-        shown.cell_data["colors"] = colors
+        shades = np.full((self._mesh.n_cells, 3), 128, dtype=np.uint8)
+        shades[self._faces()] = face_colors(vertices, faces, labels, colors)
+        shown.cell_data["colors"] = shades
         canvas.add_mesh(shown, scalars="colors", rgb=True, smooth_shading=shading, ambient=_AMBIENT)
         lines = self._edges_between(labels) if curves is None else _polylines(curves)
         if boundary_width > 0 and lines.n_cells > 0:
@@ -116,9 +120,9 @@ class SegmentationAccessor:
         self._mesh.cell_data[name] = values
 
     def _edges_between(self, labels: NDArray[np.int64]) -> pyvista.PolyData:
-        edges = interior_edges(*from_pyvista(self._mesh))
-        sides = labels[edges.faces]
-        ends = edges.vertices[sides[:, 0] != sides[:, 1]]
+        faces, vertices = mesh_of(*from_pyvista(self._mesh), repair=True, warn=False).interior_edges()
+        sides = labels[faces]
+        ends = vertices[sides[:, 0] != sides[:, 1]]
         lines = pyvista.PolyData()
         if len(ends):
             lines.points = np.asarray(self._mesh.points)

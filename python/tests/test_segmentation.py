@@ -231,7 +231,7 @@ def test_refined_probabilities_solve_the_walk_with_priors(seed: int, labels: int
     length = np.linalg.norm(mesh.vertices[edges.vertices[:, 0]] - mesh.vertices[edges.vertices[:, 1]], axis=1)
     weight = length.mean() / diagonal / (np.sqrt(3) * reach**2 * area.sum() / diagonal**2)
     rate = weight * (area / diagonal**2)[:, None] * beliefs
-    matrix = laplacian(mesh, rw.conductance(*mesh, difference)) + sp.diags(rate.sum(axis=1))
+    matrix = laplacian(mesh, rw.conductance(*mesh, difference, cap=3)) + sp.diags(rate.sum(axis=1))
     expected = sp.linalg.spsolve(matrix.tocsc(), rate).reshape(-1, labels)
     assert np.allclose(refined.probabilities, expected, atol=1e-9)
     assert np.array_equal(refined.labels, expected.argmax(axis=1)) or np.allclose(
