@@ -44,5 +44,5 @@ for column, (title, labels) in enumerate(
         plotter=plotter, colors=colors, boundary_width=2 if title != "votes" else 0
     )
     plotter.add_text(title, font_size=10)
-    plotter.view_xz()
+    plotter.camera_position = "xz"
 plotter.screenshot(figure_path("features_of_a_network.png"))

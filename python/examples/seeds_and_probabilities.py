@@ -35,10 +35,10 @@ plotter = pyvista.Plotter(shape=(1, 2), off_screen=True, window_size=[900, 450])
 shown = rw.to_pyvista(vertices, faces, labels)
 shown.rw.plot_segments(plotter=plotter)
 plotter.add_points(centers[list(walk.seeds)], color="black", point_size=12, render_points_as_spheres=True)
-plotter.view_xz()
+plotter.camera_position = "xz"
 plotter.subplot(0, 1)
 sure = rw.to_pyvista(vertices, faces)
 sure.cell_data["probability of the label"] = probabilities.max(axis=1)
 plotter.add_mesh(sure, scalars="probability of the label", cmap="cividis")
-plotter.view_xz()
+plotter.camera_position = "xz"
 plotter.screenshot(figure_path("seeds_and_probabilities.png"))

@@ -176,7 +176,20 @@ def face_colors(
     labels: ArrayLike,
     colors: Mapping[int, tuple[int, int, int]] | None = None,
 ) -> NDArray[np.uint8]:
-    """List the colour of each face, shape (m, 3), by those of labels, which are chosen by `segment_colors()` by default."""
+    """List the colour of each face.
+
+    Parameters
+    ----------
+    vertices, faces, labels
+        See `segment_colors()`.
+    colors : mapping from int to three int, optional
+        Of each label; by default those of `segment_colors()`.
+
+    Returns
+    -------
+    ndarray of uint8, shape (m, 3)
+        Red, green and blue.
+    """
     chosen = segment_colors(vertices, faces, labels) if colors is None else colors
     names, number = np.unique(integers_of(labels, "labels"), return_inverse=True)
     table = np.array([chosen[int(name)] for name in names], dtype=np.uint8).reshape(-1, 3)

@@ -56,6 +56,15 @@ def grid(columns: int, rows: int) -> Mesh:
     return Mesh(vertices, faces)
 
 
+def waves(columns: int, rows: int) -> Mesh:
+    """Make a wavy sheet of quads on which no two places are alike."""
+    x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0), indexing="ij")
+    height = 3 * np.sin(x / 4.1) * np.cos(y / 3.7) + 0.5 * np.sin(x * y / 17)
+    corner = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)[None, :]).ravel()
+    faces = np.column_stack([corner, corner + rows + 1, corner + rows + 2, corner + 1])
+    return Mesh(np.column_stack([x.ravel(), y.ravel(), height.ravel()]), faces)
+
+
 def sphere(subdivisions: int = 2, radius: float = 1.0, center: tuple[float, float, float] = (0, 0, 0)) -> Mesh:
     """Make a sphere by halving the edges of an icosahedron."""
     import trimesh
