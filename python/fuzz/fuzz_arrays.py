@@ -19,6 +19,7 @@ with atheris.instrument_imports(include=["rw_segmentation"]):
 
 REALS = ["f2", "f4", "f8", "g", ">f4", ">f8", "i4", "u1", "c8", "?", "O", "U3"]
 INTEGERS = ["i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", ">i4", "f8", "?", "O"]
+MOST_CORNERS = 64
 SPECIAL = [0.0, 1.0, -1.0, 0.5, 1e300, -1e300, 1e-300, float("nan"), float("inf"), 3.0]
 
 
@@ -68,7 +69,8 @@ def mesh_of(data: atheris.FuzzedDataProvider) -> tuple[Any, Any, int]:
     if data.ConsumeBool():
         return vertices, integer_array(data, (count, data.ConsumeIntInRange(2, 5)), largest), count
     offsets = np.sort(integer_array(data, (count + 1,), 3 * count))
-    corners = integer_array(data, (int(offsets[-1]) if data.ConsumeBool() and offsets[-1] > 0 else 3 * count,), largest)
+    fitting = int(offsets[-1]) if 0 <= offsets[-1] <= MOST_CORNERS else 3 * count
+    corners = integer_array(data, (fitting if data.ConsumeBool() else 3 * count,), largest)
     return vertices, rw.Polygons(corners, offsets), count
 
 

@@ -80,7 +80,7 @@ def from_meshio(mesh: meshio.Mesh) -> tuple[NDArray[np.float64], Polygons]:
 
 
 def to_meshio(mesh: meshio.Mesh, labels: ArrayLike, name: str = "segment") -> meshio.Mesh:
-    """Put labels into the ``cell_data`` of a copy of the mesh that they were made of; other cells get -1."""
+    """Put labels into ``cell_data[name]`` of a copy of the mesh that they were made of; other cells get -1."""
     import meshio
 
     known = integers_of(labels, "labels")
