@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import operator
 import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
@@ -73,6 +74,20 @@ def integers_of(values: ArrayLike, name: str) -> NDArray[Any]:
         raise ValueError(f"{name} must be integers, but are of type {array.dtype}")
     width = max(4, array.dtype.itemsize)
     return np.ascontiguousarray(array, dtype=np.dtype(f"{array.dtype.kind}{width}"))
+
+
+def integer_of(value: Any, name: str, least: int | None = None) -> int:
+    """Take an integer, of Python's or NumPy's, of 64 bits at most."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise ValueError(f"{name} is {value!r}, but must be an integer") from None
+    if least is not None and number < least:
+        requirement = "must not be negative" if least == 0 else f"must be at least {least}"
+        raise ValueError(f"{name} is {number}, but {requirement}")
+    if not -(2**63) <= number < 2**63:
+        raise ValueError(f"{name} is {number}, which is out of range")
+    return number
 
 
 def polygons_of(faces: Faces) -> tuple[NDArray[Any], NDArray[np.int64] | None, int]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rw_segmentation import _core
-from rw_segmentation._arrays import Faces, integers_of, labels_of, mesh_of, numbers_of, walls_of
+from rw_segmentation._arrays import Faces, integer_of, integers_of, labels_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -128,9 +128,7 @@ def smooth_boundaries(
     smoothing.length, smoothing.tension = length, tension
     smoothing.feature_weight, smoothing.crease_angle = feature_weight, crease_angle
     smoothing.largest_displacement = largest_displacement
-    if steps < 0:
-        raise ValueError(f"steps is {steps}, but must not be negative")
-    smoothing.steps = steps
+    smoothing.steps = integer_of(steps, "steps", 0)
     with reporting(progress, "boundaries") as told:
         curves: list[dict[str, Any]] = _core.smooth_boundaries(mesh, known, smoothing, walls_of(walls), told)
     return [BoundaryCurve(**curve) for curve in curves]

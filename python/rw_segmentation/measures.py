@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from rw_segmentation import _core
-from rw_segmentation._arrays import Faces, labels_of, mesh_of, numbers_of, walls_of
+from rw_segmentation._arrays import Faces, integer_of, labels_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -329,8 +329,7 @@ def thickness(
         0 only where no ray leaves the solid anywhere.
     """
     mesh = mesh_of(vertices, faces, repair)
-    if rays < 0:
-        raise ValueError(f"rays is {rays}, but must be at least 1")
+    rays = integer_of(rays, "rays", 1)
     with reporting(progress, "thickness") as told:
         return _core.thickness(mesh, rays, cone_angle, smoothed, scale, told)
 
@@ -402,8 +401,7 @@ def transfer_labels(
     reduced = mesh_of(reduced_vertices, reduced_faces, repair)
     labels = labels_of(reduced_labels, reduced, "reduced_labels")
     mesh = mesh_of(vertices, faces, repair)
-    if band < 0:
-        raise ValueError(f"band is {band}, but must not be negative")
+    band = integer_of(band, "band", 0)
     with reporting(progress, "transfer") as told:
         if difference is None:
             values = _core.dihedral_difference(mesh, 0.2, "cosine", 0.0, 0.0, None)

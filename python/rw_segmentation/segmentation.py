@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 import numpy as np
 
 from rw_segmentation import _core
-from rw_segmentation._arrays import Faces, integers_of, mesh_of, numbers_of, walls_of
+from rw_segmentation._arrays import Faces, integer_of, integers_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
 from rw_segmentation.measures import difference_of_name, feature_difference_of_mesh
 
@@ -75,8 +75,8 @@ class Policy:
         bases = ("automatic", "paper", "coarse", "coarse_paper")
         if self.base not in bases:
             raise ValueError(f"policy {self.base!r} is none of {', '.join(bases)}, surfaces")
-        if self.number_of_seeds is not None and self.number_of_seeds < 1:
-            raise ValueError(f"number_of_seeds is {self.number_of_seeds}, but must be at least 1")
+        if self.number_of_seeds is not None:
+            integer_of(self.number_of_seeds, "number_of_seeds", 1)
 
     def choices(self, segments: int | None = None, difference: str | None = None) -> _core.Choices:
         """Make what the compiled module takes."""
@@ -84,7 +84,7 @@ class Policy:
         choices.is_paper = self.base in ("paper", "coarse_paper")
         choices.is_coarse = self.base in ("coarse", "coarse_paper")
         choices.seeds = self.number_of_seeds
-        choices.segments = segments
+        choices.segments = None if segments is None else integer_of(segments, "the number of segments", 0)
         choices.difference = difference
         for name in (
             "seeding",
@@ -128,9 +128,9 @@ class Hierarchy:
         ValueError
             If there are no such levels.
         """
-        if segments is not None and segments < 0:
-            raise ValueError(f"the number of segments is {segments}, but must not be negative")
-        return self._core.labels(self.suggested if segments is None else segments)
+        if segments is None:
+            return self._core.labels(self.suggested)
+        return self._core.labels(integer_of(segments, "the number of segments", 0))
 
     @property
     def number_of_fragments(self) -> int:
@@ -228,7 +228,7 @@ def difference_of(
 def labelled_seeds(seeds: Seeds) -> list[tuple[int, int | None]]:
     """Make pairs of faces and labels; without labels where none are given."""
     if isinstance(seeds, Mapping):
-        return [(int(face), int(label)) for face, label in seeds.items()]
+        return [(integer_of(face, "seed"), integer_of(label, "the label")) for face, label in seeds.items()]
     array = integers_of(seeds, "seeds")
     if array.ndim == 2 and array.shape[1] == 2:
         return [(int(face), int(label)) for face, label in array]
@@ -302,7 +302,7 @@ def hierarchy_of_mesh(
     if chosen.base in ("coarse", "coarse_paper"):
         raise ValueError('the coarse policies merge nothing: give seeding="coarse" instead, or call segment()')
     name, values = difference_of(mesh, chosen, difference, face_features)
-    faces_of_seeds = np.array([face for face, _ in given], dtype=np.int64)
+    faces_of_seeds = np.array([integer_of(face, "seed") for face, _ in given], dtype=np.int64)
     with reporting(progress, "segmentation") as told:
         return Hierarchy(
             _core.hierarchy(mesh, chosen.choices(segments, name), faces_of_seeds, values, walls_of(walls), told)
@@ -383,8 +383,6 @@ def segment(
     >>> labels = segment(vertices, faces, seeds={167: 0, 1483: 1})             # doctest: +SKIP
     """
     mesh = mesh_of(vertices, faces, repair)
-    if segments is not None and segments < 0:
-        raise ValueError(f"the number of segments is {segments}, but must not be negative")
     if policy != "surfaces":
         chosen = policy_of(policy)
         is_coarse = chosen.base in ("coarse", "coarse_paper")
@@ -409,4 +407,4 @@ def add_seeds(walk: _core.Walk, seeds: list[tuple[int, int | None]]) -> None:
         chosen = place if label is None else label
         if known.setdefault(face, chosen) != chosen:
             raise ValueError(f"seed {face}: another seed gives the same face the label {known[face]}")
-        walk.add_seed(face, chosen)
+        walk.add_seed(integer_of(face, "seed"), integer_of(chosen, "the label"))

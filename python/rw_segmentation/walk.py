@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rw_segmentation import _core
-from rw_segmentation._arrays import Faces, integers_of, mesh_of, numbers_of, walls_of
+from rw_segmentation._arrays import Faces, integer_of, integers_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
 from rw_segmentation.segmentation import Difference, Policy, difference_of, policy_of
 
@@ -90,16 +90,16 @@ class RandomWalk:
         ValueError
             If it is not a face of the mesh, or the label is negative.
         """
-        self._core.add_seed(int(face), int(label))
+        self._core.add_seed(integer_of(face, "seed"), integer_of(label, "the label"))
 
     def add_seeds(self, faces: ArrayLike, label: int) -> None:
         """Make several faces seeds of one label, such as those under a stroke of a brush."""
         for face in integers_of(faces, "faces").reshape(-1):
-            self._core.add_seed(int(face), int(label))
+            self._core.add_seed(integer_of(face, "seed"), integer_of(label, "the label"))
 
     def remove_seed(self, face: int) -> bool:
         """Make a face an ordinary one again; tells whether it was a seed."""
-        return self._core.remove_seed(int(face))
+        return self._core.remove_seed(integer_of(face, "seed"))
 
     def clear_seeds(self) -> None:
         """Make all faces ordinary ones."""
