@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+
+#include "Choices.h"
+
+#include "definitions.h"
+#include "without_lock.h"
+
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace rw_python {
+namespace {
+
+template <class Choice>
+std::optional<Choice> chosen(const segment_mesh::Names<Choice>& names, const std::optional<std::string>& name,
+                             const std::string& argument) {
+  if (!name) return {};
+  try {
+    return segment_mesh::choice_of(names, *name);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(argument + ": " + error.what());
+  }
+}
+
+template <class Preset>
+void take_numbers_of(const Choices& choices, segment_mesh::Method& method) {
+  segment_mesh::take_numbers(choices.segments ? Preset(*choices.segments) : Preset(), method);
+}
+
+RW::Dihedral_difference_policy angles_of(const Choices& choices, const segment_mesh::Method& method,
+                                         bool are_seeds_given) {
+  RW::Dihedral_difference_policy angles = segment_mesh::angles_of(method.difference);
+  if (method.difference == segment_mesh::Difference::concavity && (are_seeds_given || choices.is_coarse)) {
+    angles.ordinary_difference = 0;  // see Options.h of the tool for these numbers
+    if (are_seeds_given) angles.convex_weight = 0.02;
+  }
+  angles.convex_weight = choices.convex_weight.value_or(angles.convex_weight);
+  angles.measure = chosen(segment_mesh::measure_names, choices.measure, "measure").value_or(angles.measure);
+  return angles;
+}
+
+/// \throws std::invalid_argument
+void check(const Choices& choices) {
+  const bool is_by_curvature = choices.difference == "curvature";
+  if (choices.seeds == std::size_t(0)) throw std::invalid_argument("number_of_seeds is 0, but must be at least 1");
+  if (choices.radius && !is_by_curvature)
+    throw std::invalid_argument("radius is that of curvatures: give difference=\"curvature\", too");
+  if (choices.convex_weight && is_by_curvature)
+    throw std::invalid_argument("convex_weight: curvatures have none, leave it out or give another difference");
+  if (choices.measure && is_by_curvature)
+    throw std::invalid_argument("measure: curvatures have none, leave it out or give another difference");
+  if (choices.is_coarse && choices.seeding)
+    throw std::invalid_argument("seeding: the coarse policies place their seeds by themselves, leave it out");
+  if (choices.is_coarse && choices.merge_cost)
+    throw std::invalid_argument("merge_cost: the coarse policies merge nothing, leave it out");
+}
+
+}  // namespace
+
+segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given) {
+  using namespace segment_mesh;
+  check(choices);
+  Method method;
+  method.seeding = chosen(seeding_names, choices.seeding, "seeding")
+                       .value_or(choices.is_coarse  ? Seeding::coarse
+                                 : choices.is_paper ? Seeding::particles
+                                                    : Seeding::farthest);
+  method.difference = chosen(difference_names, choices.difference, "difference")
+                          .value_or(choices.is_paper ? Difference::dihedral : Difference::concavity);
+  method.merge_cost = chosen(merge_cost_names, choices.merge_cost, "merge_cost")
+                          .value_or(choices.is_paper ? Merge_cost::boundary : Merge_cost::size);
+  method.solver = chosen(solver_names, choices.solver, "solver").value_or(method.solver);
+  if (choices.is_paper)
+    take_numbers_of<RW::Paper_segmentation>(choices, method);
+  else
+    take_numbers_of<RW::Automatic_segmentation>(choices, method);
+
+  method.smoothing.radius = choices.smoothing.value_or(method.smoothing.radius);
+  method.angles = rw_python::angles_of(choices, method, are_seeds_given);
+  if (choices.radius) method.radius = RW::Ball_radius::in_edge_lengths(*choices.radius);
+  method.sigma = choices.sigma.value_or(method.sigma);
+  method.cap = choices.cap.value_or(method.cap);
+  method.segments = choices.segments;
+  if (choices.seeds)
+    method.seeds = choices.seeds;
+  else if (choices.segments && method.seeding == Seeding::coarse)
+    method.seeds = choices.is_coarse ? *choices.segments : 2 * *choices.segments;
+  method.are_seeds_exact = choices.is_coarse || choices.seeds;
+  return method;
+}
+
+segment_mesh::Policies policies_of(const segment_mesh::Method& method, const Dual& dual,
+                                   const std::vector<double>& difference) {
+  segment_mesh::Policies policies = segment_mesh::policies_of(method);
+  if (difference.empty()) return policies;
+  std::vector<double> values;
+  values.reserve(dual.number_of_edges());
+  for (const Edge e : dual.edge_descriptors()) values.push_back(difference[e.idx()]);
+  policies.difference = [values = std::move(values)](const auto&, const auto&) { return values; };
+  return policies;
+}
+
+Walk_ground walk_ground(const Mesh& mesh, const Dual& dual, const segment_mesh::Policies& policies,
+                        const std::vector<double>& conductance, bool needs_difference,
+                        const std::function<bool(double)>& callback) {
+  Walk_ground ground = {dual, dual, {}, conductance};
+  if (!conductance.empty() && !needs_difference) return ground;
+  const auto smoothed =
+      RW::smoothed_shape(dual, policies.smoothing, CGAL::parameters::callback(part(callback, 0, 0.5)));
+  ground.shape = Dual(dual.with_shape_normals(smoothed.shape_normals()), dual);
+  ground.difference = policies.difference(ground.shape, RW::Progress(part(callback, 0.5, 1)));
+  if (!conductance.empty()) return ground;
+  std::vector<double> by_edge(num_edges(mesh.halfedges()), 0.);
+  for (Index e = 0; e < ground.difference.size(); ++e) by_edge[dual.edge(e).idx()] = ground.difference[e];
+  const RW::Conductance known(ground.shape, map_over<Edge>(by_edge), policies.sigma, policies.cap);
+  ground.conductance.assign(by_edge.size(), 0.);
+  for (const Edge e : dual.edge_descriptors()) ground.conductance[e.idx()] = get(known, e);
+  return ground;
+}
+
+void define_choices(nb::module_& m) {
+  nb::class_<Choices>(m, "Choices", "How segments are found; None: the library's own choice.")
+      .def(nb::init<>())
+      .def_rw("is_paper", &Choices::is_paper)
+      .def_rw("is_coarse", &Choices::is_coarse)
+      .def_rw("difference", &Choices::difference, nb::arg().none())
+      .def_rw("seeding", &Choices::seeding, nb::arg().none())
+      .def_rw("merge_cost", &Choices::merge_cost, nb::arg().none())
+      .def_rw("solver", &Choices::solver, nb::arg().none())
+      .def_rw("measure", &Choices::measure, nb::arg().none())
+      .def_rw("smoothing", &Choices::smoothing, nb::arg().none())
+      .def_rw("convex_weight", &Choices::convex_weight, nb::arg().none())
+      .def_rw("radius", &Choices::radius, nb::arg().none())
+      .def_rw("sigma", &Choices::sigma, nb::arg().none())
+      .def_rw("cap", &Choices::cap, nb::arg().none())
+      .def_rw("seeds", &Choices::seeds, nb::arg().none())
+      .def_rw("segments", &Choices::segments, nb::arg().none());
+}
+
+}  // namespace rw_python
