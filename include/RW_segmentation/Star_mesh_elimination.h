@@ -33,8 +33,8 @@ class Star_mesh_factor;
 /// them are shared among threads, with the same result for any number of them.
 ///
 /// Complexity on surface meshes with m faces, as measured: O(m^1.3) time to factorise, O(m log m) memory (about
-/// 450 bytes a face at 640 000 faces), O(m log m) time for each block of 8 labels. Not safe to use from several
-/// threads at once.
+/// 450 bytes a face at 640 000 faces), O(m log m) time for each block of 8 labels, or about as much for the largest
+/// potentials of 40. Not safe to use from several threads at once.
 class Star_mesh_elimination {
  public:
   /// Numbers faces and edges.
