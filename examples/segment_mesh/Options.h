@@ -8,8 +8,6 @@
 #include "Oriented_mesh.h"
 #include "seeds.h"
 
-#include <RW_segmentation/Dihedral_difference.h>
-#include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/version.h>
 #include <CLI/CLI.hpp>
 
@@ -42,22 +40,14 @@ struct Files {
 };
 
 /// What the user asks for. What is not given is left to the library's own numbers.
-struct Options {
+struct Options : Choices {
   std::vector<std::string> meshes;
   std::string list;
   bool resumes = false;
   Repairs repairs;
 
   std::vector<std::string> seeds;  ///< see `seed_argument()`
-  std::optional<std::size_t> segments, automatic_seeds;
-  bool is_coarse = false, is_paper = false, is_engineering = false;
-
-  std::optional<Difference> difference;
-  std::optional<Seeding> seeding;
-  std::optional<Merge_cost> merge_cost;
-  std::optional<Solver> solver;
-  std::optional<double> smoothing, convex_weight, radius, sigma, cap;
-  std::optional<RW_segmentation::Dihedral_measure> measure;
+  bool is_engineering = false;
   std::optional<double> constraints_angle;  ///< in degrees
 
   bool is_smooth = false, is_refined = false;
@@ -140,59 +130,9 @@ inline void check_combinations(const Options& options) {
   }
 }
 
-/// The angles that make faces differ, by the user's numbers where they are given.
-inline RW_segmentation::Dihedral_difference_policy angles_of(const Options& options, Difference difference) {
-  RW_segmentation::Dihedral_difference_policy angles = angles_of(difference);
-  if (difference == Difference::concavity && !options.merges()) {
-    // Fragments are merged over slight concavities; walks from seeds that are segments themselves heed all.
-    angles.ordinary_difference = 0;
-    // Seeds may also lie on the two sides of a convex crease, which a weight of 0 does not see. With one seed in the
-    // middle of each part that people make of natural shapes, weights of 0, 0.02, 0.05, 0.1 and 0.2 give 87.7, 87.8,
-    // 87.3, 85.6 and 81.8 % of the faces their part.
-    if (options.has_seeds()) angles.convex_weight = 0.02;
-  }
-  angles.convex_weight = options.convex_weight.value_or(angles.convex_weight);
-  angles.measure = options.measure.value_or(angles.measure);
-  return angles;
-}
-
-/// One of the library's own ways of finding segments, with as many segments as asked for.
-template <class Preset>
-Preset preset_of(const Options& options) {
-  return options.segments ? Preset(*options.segments) : Preset();
-}
-
 /// How segments are found: as agrees best with people or as in the paper, and otherwise as asked for.
 /// \throws std::invalid_argument if no seeds are asked for
-inline Method method_of(const Options& options) {
-  if (options.automatic_seeds == std::size_t(0)) throw std::invalid_argument("seeds is 0, but must be at least 1");
-  Method method;
-  method.seeding = options.seeding.value_or(options.is_coarse  ? Seeding::coarse
-                                            : options.is_paper ? Seeding::particles
-                                                               : Seeding::farthest);
-  method.difference = options.difference.value_or(options.is_paper ? Difference::dihedral : Difference::concavity);
-  method.merge_cost = options.merge_cost.value_or(options.is_paper ? Merge_cost::boundary : Merge_cost::learned);
-  method.solver = options.solver.value_or(method.solver);
-  if (options.is_paper)
-    take_numbers(preset_of<RW_segmentation::Paper_segmentation>(options), method);
-  else
-    take_numbers(preset_of<RW_segmentation::Automatic_segmentation>(options), method);
-
-  method.smoothing.radius = options.smoothing.value_or(method.smoothing.radius);
-  method.angles = angles_of(options, method.difference);
-  if (options.radius) method.radius = RW_segmentation::Ball_radius::in_edge_lengths(*options.radius);
-  method.sigma = options.sigma.value_or(method.sigma);
-  method.cap = options.cap.value_or(method.cap);
-  method.segments = options.segments;
-  if (options.automatic_seeds) {
-    method.seeds = options.automatic_seeds;
-  } else if (options.segments && method.seeding == Seeding::coarse) {
-    // Of twice as many fragments as segments there is something to choose from.
-    method.seeds = options.is_coarse ? *options.segments : 2 * *options.segments;
-  }
-  method.are_seeds_exact = options.is_coarse || options.automatic_seeds;
-  return method;
-}
+inline Method method_of(const Options& options) { return method_of(options, options.has_seeds() && !options.merges()); }
 
 inline std::string version() {
   return std::to_string(RW_SEGMENTATION_VERSION_MAJOR) + "." + std::to_string(RW_SEGMENTATION_VERSION_MINOR) + "." +

@@ -40,8 +40,9 @@ class Policy:
         Where automatic seeds are placed.
     number_of_seeds : int, optional
         How many; 40 by default ("paper": 60), or twice the number of segments if that is more.
-    merge_cost : {"size", "boundary"}, optional
-        Which fragments are merged first.
+    merge_cost : {"learned", "size", "boundary"}, optional
+        Which fragments are merged first: by what is learned from people (the default), by size, concavity and thickness
+        alone, or by the concavity of boundaries as in the paper (the default of "paper").
     solver : {"star-mesh", "eigen"}, optional
         What computes the walk.
     smoothing : float, optional
@@ -61,7 +62,7 @@ class Policy:
     base: Literal["automatic", "paper", "coarse", "coarse_paper"] = "automatic"
     seeding: Literal["farthest", "particles", "coarse"] | None = None
     number_of_seeds: int | None = None
-    merge_cost: Literal["size", "boundary"] | None = None
+    merge_cost: Literal["learned", "size", "boundary"] | None = None
     solver: Literal["star-mesh", "eigen"] | None = None
     smoothing: float | None = None
     convex_weight: float | None = None

@@ -27,23 +27,6 @@ std::optional<Choice> chosen(const segment_mesh::Names<Choice>& names, const std
   }
 }
 
-template <class Preset>
-void take_numbers_of(const Choices& choices, segment_mesh::Method& method) {
-  segment_mesh::take_numbers(choices.segments ? Preset(*choices.segments) : Preset(), method);
-}
-
-RW::Dihedral_difference_policy angles_of(const Choices& choices, const segment_mesh::Method& method,
-                                         bool are_seeds_given) {
-  RW::Dihedral_difference_policy angles = segment_mesh::angles_of(method.difference);
-  if (method.difference == segment_mesh::Difference::concavity && (are_seeds_given || choices.is_coarse)) {
-    angles.ordinary_difference = 0;  // see Options.h of the tool for these numbers
-    if (are_seeds_given) angles.convex_weight = 0.02;
-  }
-  angles.convex_weight = choices.convex_weight.value_or(angles.convex_weight);
-  angles.measure = chosen(segment_mesh::measure_names, choices.measure, "measure").value_or(angles.measure);
-  return angles;
-}
-
 /// \throws std::invalid_argument
 void check(const Choices& choices) {
   const bool is_by_curvature = choices.difference == "curvature";
@@ -65,33 +48,22 @@ void check(const Choices& choices) {
 segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given) {
   using namespace segment_mesh;
   check(choices);
-  Method method;
-  method.seeding = chosen(seeding_names, choices.seeding, "seeding")
-                       .value_or(choices.is_coarse  ? Seeding::coarse
-                                 : choices.is_paper ? Seeding::particles
-                                                    : Seeding::farthest);
-  method.difference = chosen(difference_names, choices.difference, "difference")
-                          .value_or(choices.is_paper ? Difference::dihedral : Difference::concavity);
-  method.merge_cost = chosen(merge_cost_names, choices.merge_cost, "merge_cost")
-                          .value_or(choices.is_paper ? Merge_cost::boundary : Merge_cost::size);
-  method.solver = chosen(solver_names, choices.solver, "solver").value_or(method.solver);
-  if (choices.is_paper)
-    take_numbers_of<RW::Paper_segmentation>(choices, method);
-  else
-    take_numbers_of<RW::Automatic_segmentation>(choices, method);
-
-  method.smoothing.radius = choices.smoothing.value_or(method.smoothing.radius);
-  method.angles = rw_python::angles_of(choices, method, are_seeds_given);
-  if (choices.radius) method.radius = RW::Ball_radius::in_edge_lengths(*choices.radius);
-  method.sigma = choices.sigma.value_or(method.sigma);
-  method.cap = choices.cap.value_or(method.cap);
-  method.segments = choices.segments;
-  if (choices.seeds)
-    method.seeds = choices.seeds;
-  else if (choices.segments && method.seeding == Seeding::coarse)
-    method.seeds = choices.is_coarse ? *choices.segments : 2 * *choices.segments;
-  method.are_seeds_exact = choices.is_coarse || choices.seeds;
-  return method;
+  segment_mesh::Choices said;
+  said.is_coarse = choices.is_coarse;
+  said.is_paper = choices.is_paper;
+  said.segments = choices.segments;
+  said.automatic_seeds = choices.seeds;
+  said.difference = chosen(difference_names, choices.difference, "difference");
+  said.seeding = chosen(seeding_names, choices.seeding, "seeding");
+  said.merge_cost = chosen(merge_cost_names, choices.merge_cost, "merge_cost");
+  said.solver = chosen(solver_names, choices.solver, "solver");
+  said.measure = chosen(measure_names, choices.measure, "measure");
+  said.smoothing = choices.smoothing;
+  said.convex_weight = choices.convex_weight;
+  said.radius = choices.radius;
+  said.sigma = choices.sigma;
+  said.cap = choices.cap;
+  return segment_mesh::method_of(said, are_seeds_given);
 }
 
 segment_mesh::Policies policies_of(const segment_mesh::Method& method, const Dual& dual,

@@ -49,6 +49,7 @@ MODES: dict[str, tuple[list[str], Callable[[Mesh], NDArray[np.int64]]]] = {
     "dihedral": (["--difference", "dihedral"], lambda m: rw.segment(*m, difference="dihedral")),
     "walls": (["--constraints-angle", "40"], lambda m: rw.segment(*m, walls=rw.sharp_edges(*m, 40))),
     "coarse seeding": (["--seeding", "coarse"], lambda m: rw.segment(*m, policy=rw.Policy(seeding="coarse"))),
+    "size cost": (["--merge-cost", "size"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="size"))),
     "boundary cost": (["--merge-cost", "boundary"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="boundary"))),
     "Eigen": (["--solver", "eigen"], lambda m: rw.segment(*m, policy=rw.Policy(solver="eigen"))),
     "numbers": (
