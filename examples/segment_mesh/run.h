@@ -67,6 +67,9 @@ inline Outcome failure(const std::string& mesh, const Options& options) {
     if (options.bytes) return {reached_limit, mesh + ": out of the memory that --max-memory allows"};
     return {failed_computation, mesh + ": out of memory"};
   } catch (const std::exception& error) {
+    // TBB's words where the stack of a thread does not fit any more.
+    if (options.bytes && std::string(error.what()).find("pthread_create") != std::string::npos)
+      return {reached_limit, mesh + ": out of the memory that --max-memory allows"};
     return {failed_computation, mesh + ": " + error.what()};
   }
 }

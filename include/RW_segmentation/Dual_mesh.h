@@ -299,9 +299,10 @@ class Dual_mesh_of : public Dual_mesh {
   void check_edges(const std::vector<double>& values, const char* argument) const {
     for (std::size_t e = 0; e < values.size(); ++e) {
       if (values[e] >= 0) continue;
-      const auto [f, g] = graph().faces_of(static_cast<Index>(e));
+      const auto& sides = graph().faces_of(static_cast<Index>(e));
+      const auto [first, second] = std::minmax({place(sides[0]), place(sides[1])});
       const std::string where =
-          " on the edge between faces " + std::to_string(place(f)) + " and " + std::to_string(place(g));
+          " on the edge between faces " + std::to_string(first) + " and " + std::to_string(second);
       throw internal::argument_error((argument + where).c_str(), values[e], "a number >= 0");
     }
   }

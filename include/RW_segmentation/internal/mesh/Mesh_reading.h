@@ -90,6 +90,11 @@ class Mesh_reading {
     descriptors.index.reserve(num_faces(mesh_));
     descriptors.edge_descriptors.reserve(num_edges(mesh_));
     sides.reserve(num_edges(mesh_));
+    if constexpr (!Has_integer<edge_descriptor>::value) {
+      edge_place_.reserve(num_edges(mesh_));
+      Index place = 0;
+      for (const edge_descriptor edge : edges(mesh_)) edge_place_.insert(edge, place++);
+    }
     if (!with_vertices_) return;
     corners.reserve(num_faces(mesh_), 3 * num_faces(mesh_));
     edge_ends.reserve(num_edges(mesh_));
@@ -149,9 +154,8 @@ class Mesh_reading {
   /// Numbers what a face is the first to come to.
   void number_sides(Index face, std::vector<Side>& sides_of_face) {
     if (with_vertices_) number_corners(sides_of_face);
-    if constexpr (Has_integer<edge_descriptor>::value)
-      std::sort(sides_of_face.begin(), sides_of_face.end(),
-                [](const Side& a, const Side& b) { return a.edge.idx() < b.edge.idx(); });
+    std::sort(sides_of_face.begin(), sides_of_face.end(),
+              [&](const Side& a, const Side& b) { return place_of(a.edge) < place_of(b.edge); });
     for (const Side& side : sides_of_face) {
       if (side.opposite_face == Traits::null_face()) continue;
       Index other = side.opposite_number;
@@ -159,6 +163,14 @@ class Mesh_reading {
       if (other == none) other = number_face(side.opposite_face);
       if (other > face) add_edge(face, other, side);
     }
+  }
+
+  /// Where an edge stands among those of the mesh.
+  std::size_t place_of(edge_descriptor edge) const {
+    if constexpr (Has_integer<edge_descriptor>::value)
+      return static_cast<std::size_t>(edge.idx());
+    else
+      return edge_place_[edge];
   }
 
   void number_corners(std::vector<Side>& sides_of_face) {
@@ -181,6 +193,7 @@ class Mesh_reading {
   const FaceListGraph& mesh_;
   bool with_vertices_;
   Descriptor_index<vertex_descriptor> vertex_index_;
+  Descriptor_index<edge_descriptor> edge_place_;  // where edges hold no integer
   std::array<std::vector<Side>, faces_in_batch> batch_;
   std::array<halfedge_descriptor, faces_in_batch> next_;
 };
