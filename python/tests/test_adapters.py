@@ -62,7 +62,7 @@ def test_flat_points_of_meshio_lie_in_a_plane() -> None:
 def test_open3d_and_back(elephant: Mesh) -> None:
     if sys.version_info >= (3, 13):
         pytest.skip("Open3D has no wheels for this Python")
-    open3d = pytest.importorskip("open3d", reason="Open3D is not among the packages that scripts/test-python installs")
+    open3d = pytest.importorskip("open3d")
     mesh = rw.to_open3d(*elephant)
     vertices, faces = rw.from_open3d(mesh)
     assert np.array_equal(rw.segment(vertices, faces), rw.segment(*elephant))
