@@ -270,8 +270,8 @@ class Trees_without_category {
       int feature = 0, yes = 0, no = 0;
       file >> feature >> split.threshold >> yes >> no;
       split.feature = static_cast<std::uint8_t>(feature);
-      split.yes = static_cast<std::int8_t>(yes);
-      split.no = static_cast<std::int8_t>(no);
+      split.yes = static_cast<std::int16_t>(yes);
+      split.no = static_cast<std::int16_t>(no);
     }
     for (double& leaf : tree.leaves) file >> leaf;
   }

@@ -17,7 +17,7 @@ struct Decision_tree {
   struct Split {
     std::uint8_t feature;
     double threshold;
-    std::int8_t yes, no;
+    std::int16_t yes, no;
   };
 
   std::array<Split, most_leaves - 1> splits;
