@@ -210,8 +210,10 @@ TEST(Farthest_point_seeds, AreNoCloserToEachOtherThanTheFarthestFaceIsToThem) {
   const Metric metric(shape);
   const auto seeds = seeds_of(shape, 30);
   const double covering_radius = metric.covering_radius(seeds);
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(metric.paths_from(seeds[i])[seeds[j]], covering_radius * (1 - 1e-9));
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const auto paths = metric.paths_from(seeds[i]);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(paths[seeds[j]], covering_radius * (1 - 1e-9));
+  }
 }
 
 TEST(Farthest_point_seeds, OfFewerAreTheFirstOfMore) {
