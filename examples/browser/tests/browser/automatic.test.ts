@@ -76,7 +76,7 @@ test('each choice of policies has a hierarchy of its own, which is kept', async 
     const { suggested } = answer(engine.hierarchy({ kind: 'graphical', ...policies }, () => true));
     expect(new Set(await segmentation.labels()).size).toBe(suggested);
   }
-  await page.getByLabel('Merged first are').selectOption('size');
+  await page.getByLabel('Merged first are').selectOption(defaultPolicies.mergeCost);
   await expect(page.locator('#parts')).toBeVisible();
   expect((await segmentation.engineCalls()).hierarchy).toBe(3);
   await page.getByText('Machine part').click();
