@@ -390,3 +390,11 @@ TEST(ThicknessOfAllFaces, RefusesNumbersOutOfRangeAndWritesNothing) {
   }
   EXPECT_EQ(values, std::vector<double>(values.size(), untouched));
 }
+
+TEST(LocalThickness, OfAFaceThatOverlapsItselfIsNotKnown) {
+  // The halves of a bow tie have areas that cancel each other, the triangles that fan it out have not.
+  meshes::Shape bow_tie;
+  bow_tie.points = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  bow_tie.faces = {{0, 1, 2, 3}};
+  EXPECT_EQ(measured(bow_tie).thickness, std::vector<double>{0});
+}

@@ -100,6 +100,8 @@ RW_SEGMENTATION_INLINE std::vector<double> thickness_of_faces(const Dual_mesh& m
   constexpr std::size_t samples_between_reports = 100;
   std::vector<double> thickness(mesh.number_of_faces(), 0.), distances;
   const double area_per_sample = mesh.total_area() / static_cast<double>(sampling.samples);
+  if (!(area_per_sample > 0)) return thickness;
+  constexpr double most_samples = 1e15;  // faces that overlap themselves have fans of any size beside their own area
   double area = 0;
   std::size_t samples = 0;
   for (const Fan_triangle& triangle : tree.triangles()) {
@@ -108,7 +110,7 @@ RW_SEGMENTATION_INLINE std::vector<double> thickness_of_faces(const Dual_mesh& m
     if (!(area > (static_cast<double>(samples) + 0.5) * area_per_sample)) continue;
     if (samples % samples_between_reports == 0)
       progress(static_cast<double>(samples) / static_cast<double>(sampling.samples));
-    samples = static_cast<std::size_t>(std::llround(area / area_per_sample));
+    samples = static_cast<std::size_t>(std::llround(std::min(area / area_per_sample, most_samples)));
     const Dual_mesh::Index f = triangle.face;
     if (thickness[f] > 0 || mesh.normal(f).isZero(0)) continue;
     cone.measure(tree, mesh, f, distances);
