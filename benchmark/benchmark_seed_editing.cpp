@@ -28,6 +28,7 @@ using Labels = Mesh::Property_map<Mesh::Face_index, std::size_t>;
 
 struct Arguments {
   std::vector<std::string> sizes = {"40k", "160k", "640k"};
+  std::string mesh;
   std::size_t seeds = 24;
   std::size_t edits = 20;
   double cap = 20;
@@ -96,8 +97,7 @@ Times edit(const Mesh& mesh, const Conductances& conductances, Labels labels, La
   return times;
 }
 
-Result measure(const std::string& size, const Arguments& arguments) {
-  Mesh mesh = mesh_of_size(size);
+Result measure(const std::string& size, Mesh mesh, const Arguments& arguments) {
   const std::size_t faces = mesh.number_of_faces();
   auto conductances = mesh.add_property_map<Mesh::Edge_index, double>("e:conductance").first;
   {
@@ -152,6 +152,8 @@ int main(int argc, char** argv) try {
       ->delimiter(',')
       ->check(CLI::IsMember(sizes()))
       ->capture_default_str();
+  app.add_option("--mesh", arguments.mesh, "The file of a mesh to edit on, in place of those sizes")
+      ->check(CLI::ExistingFile);
   app.add_option("--seeds", arguments.seeds, "Seeds at the start")->check(CLI::Range(2, 60))->capture_default_str();
   app.add_option("--edits", arguments.edits, "Additions, and as many removals")
       ->check(CLI::PositiveNumber)
@@ -160,7 +162,10 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
 
   std::vector<Result> results;
-  for (const std::string& size : arguments.sizes) results.push_back(measure(size, arguments));
+  if (!arguments.mesh.empty())
+    results.push_back(measure("file", read_mesh(arguments.mesh), arguments));
+  else
+    for (const std::string& size : arguments.sizes) results.push_back(measure(size, mesh_of_size(size), arguments));
   print(results);
   return 0;
 } catch (const std::exception& error) {
