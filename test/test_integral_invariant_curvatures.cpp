@@ -87,16 +87,24 @@ Moments as_vector(double volume, const Vector3d& first, const Eigen::Matrix3d& s
   return m;
 }
 
-/// In the unit of the radius.
-Moments moments(const meshes::Shape& shape, std::size_t face, double radius) {
-  const Surface_mesh mesh = meshes::surface_mesh(shape);
-  const Dual_mesh_of dual(mesh);
-  const internal::Triangulated_faces surface(dual);
-  const auto ball =
-      internal::Ball_neighbourhood(surface, dual)
-          .moments(dual.index(Surface_mesh::Face_index(static_cast<std::uint32_t>(face))), radius / dual.unit());
-  return as_vector(ball.volume(), ball.first(), ball.second());
-}
+/// The moments of balls round the faces of a shape, in the unit of the radius.
+class Balls {
+ public:
+  explicit Balls(const meshes::Shape& shape) : mesh_(meshes::surface_mesh(shape)) {}
+  Moments operator()(std::size_t face, double radius) {
+    const auto ball = neighbourhood_.moments(dual_.index(Surface_mesh::Face_index(static_cast<std::uint32_t>(face))),
+                                             radius / dual_.unit());
+    return as_vector(ball.volume(), ball.first(), ball.second());
+  }
+
+ private:
+  Surface_mesh mesh_;
+  Dual_mesh_of<Surface_mesh> dual_{mesh_};
+  internal::Triangulated_faces surface_{dual_};
+  internal::Ball_neighbourhood neighbourhood_{surface_, dual_};
+};
+
+Moments moments(const meshes::Shape& shape, std::size_t face, double radius) { return Balls(shape)(face, radius); }
 
 template <class Function>
 Moments gauss(const Function& f, double begin, double end) {
@@ -209,13 +217,15 @@ TEST(Ball_moments, OfASolidAndItsComplementAreThoseOfTheBall) {
   const Moments ball = as_vector(4 * pi / 3, Vector3d::Zero(), 4 * pi / 15 * Eigen::Matrix3d::Identity());
   const meshes::Shape bumpy = meshes::with_noise(meshes::torus(2, 1, 30, 20), 0.05);
   const meshes::Shape quads = meshes::with_noise(meshes::cube_of_quads(), 0.1);  // not plane
-  for (const double radius : {0.05, 0.3, 1., 2.5})
-    for (const auto& shape : {bumpy, quads, meshes::l_shape(3)})
+  for (const auto& shape : {bumpy, quads, meshes::l_shape(3)}) {
+    Balls solid(shape), complement(inside_out(shape));
+    for (const double radius : {0.05, 0.3, 1., 2.5})
       for (std::size_t f = 0; f < shape.faces.size(); f += 1 + shape.faces.size() / 20) {
-        const Moments sum = moments(shape, f, radius) + moments(inside_out(shape), f, radius);
+        const Moments sum = solid(f, radius) + complement(f, radius);
         const bool everything = (sum - ball).norm() > 1;  // both solids end inside the ball
         EXPECT_LE(everything ? sum.norm() : (sum - ball).norm(), 1e-10) << "face " << f << ", radius " << radius;
       }
+  }
 }
 
 TEST(Ball_moments, DoNotJumpWhereTheSphereTouchesAVertexOrAnEdge) {
@@ -232,12 +242,13 @@ TEST(Ball_moments, DoNotJumpWhereTheSphereTouchesAVertexOrAnEdge) {
       if (distance < 0.6) distances.push_back(distance);
     }
   ASSERT_GT(distances.size(), 50U);
+  Balls balls(shape);
   for (const double r : distances) {
-    const Moments at = moments(shape, face, r);
-    EXPECT_LE((at - moments(shape, face, r * (1 - 1e-10))).norm(), 1e-7) << r;
-    EXPECT_LE((at - moments(shape, face, r * (1 + 1e-10))).norm(), 1e-7) << r;
+    const Moments at = balls(face, r);
+    EXPECT_LE((at - balls(face, r * (1 - 1e-10))).norm(), 1e-7) << r;
+    EXPECT_LE((at - balls(face, r * (1 + 1e-10))).norm(), 1e-7) << r;
     for (int ulps = -8; ulps <= 8; ++ulps)
-      EXPECT_LE((at - moments(shape, face, r * (1 + ulps * std::numeric_limits<double>::epsilon()))).norm(), 1e-7) << r;
+      EXPECT_LE((at - balls(face, r * (1 + ulps * std::numeric_limits<double>::epsilon()))).norm(), 1e-7) << r;
   }
 }
 

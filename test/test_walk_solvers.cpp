@@ -256,7 +256,7 @@ TYPED_TEST(Walk_solver, AgreesWithWalksThatAreWalked) {
 
 TYPED_TEST(Walk_solver, GivesPotentialsInTheUnitIntervalThatAddUpToOne) {
   std::mt19937 random(7);
-  Network network{triangulated_torus(30), {}};
+  Network network{triangulated_torus(16), {}};
   network.conductances = spread_conductances(network.graph.number_of_edges(), 4, random);
   const std::vector<Index> seeds = random_faces(network.graph, 19, random);
   TypeParam solver;
@@ -406,7 +406,7 @@ TEST(MakeSolver, CallsAFunctionObjectForASolverThatHasSettings) {
 
 TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {
   std::mt19937 random(11);
-  Network network{triangulated_torus(40), {}};
+  Network network{triangulated_torus(16), {}};
   network.conductances = spread_conductances(network.graph.number_of_edges(), 60, random);
   const std::vector<Index> seeds = random_faces(network.graph, 8, random);
   Eigen_walk_solver<> cholesky;
