@@ -70,7 +70,8 @@ namespace {
 // ---- Methods ----
 
 struct Outcome_of_method {
-  Labels labels;  // by face of the mesh that was segmented
+  Labels labels;                     // by face of the mesh that was segmented
+  std::vector<Labels> other_levels;  // of which each person may take the best
   std::vector<Segmentation_report::Stage> stages;
 };
 using Method = std::function<Outcome_of_method(const Subject&)>;
@@ -87,15 +88,21 @@ std::size_t typical_number_of_segments(const Subject& subject) {
   return segmentation_measures::mode_nearest_median(numbers);
 }
 
+/// \param are_levels_offered whether the person may choose among the levels of the tree that it offers
 template <class Policy>
-Outcome_of_method by_walks(const Subject& subject, const Policy& policy) {
+Outcome_of_method by_walks(const Subject& subject, const Policy& policy, bool are_levels_offered = false) {
   Outcome_of_method outcome;
-  outcome.labels.resize(num_faces(subject.mesh));
-  const Label_map labels(outcome.labels.data(), get(boost::face_index, subject.mesh));
   const auto hierarchy = hierarchy_via_random_walks(subject.mesh, policy);
-  const std::size_t segments = policy.stop(hierarchy);
-  const std::size_t least = hierarchy.number_of_components(), most = hierarchy.number_of_fragments();
-  hierarchy.segments(Segment_count_stop(std::clamp(segments, least, most)), labels);
+  const auto labels_at = [&](std::size_t segments) {
+    Labels labels(num_faces(subject.mesh));
+    hierarchy.segments(Segment_count_stop(segments), Label_map(labels.data(), get(boost::face_index, subject.mesh)));
+    return labels;
+  };
+  const std::size_t segments =
+      std::clamp(policy.stop(hierarchy), hierarchy.number_of_components(), hierarchy.number_of_fragments());
+  outcome.labels = labels_at(segments);
+  if (are_levels_offered)
+    for (const std::size_t level : hierarchy.levels(segments)) outcome.other_levels.push_back(labels_at(level));
   outcome.stages = hierarchy.report().stages;
   return outcome;
 }
@@ -282,12 +289,13 @@ class Trees_without_category {
 
 /// The automatic segmentation, by trees that know nothing of the category of the mesh if such are given.
 Outcome_of_method automatically(const Subject& subject, const Automatic_segmentation& policy,
-                                const Trees_without_category* folds) {
-  if (!folds) return by_walks(subject, policy);
+                                const Trees_without_category* folds, bool are_levels_offered = false) {
+  if (!folds) return by_walks(subject, policy, are_levels_offered);
   const internal::Boosted_trees& trees = folds->for_mesh(subject.number);
-  return by_walks(subject, policy.with_merge_cost([&](const Dual_mesh& mesh) {
+  const auto without_category = [&](const Dual_mesh& mesh) {
     return Learned_cost(mesh, internal::thickness_of_faces(mesh, policy.merge_cost.thickness, {}), trees);
-  }));
+  };
+  return by_walks(subject, policy.with_merge_cost(without_category), are_levels_offered);
 }
 
 /// \param folds null: the library's own trees
@@ -298,6 +306,7 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
        [=](const Subject& s) {
          return automatically(s, Automatic_segmentation(typical_number_of_segments(s)), folds);
        }},
+      {"levels", [=](const Subject& s) { return automatically(s, Automatic_segmentation(), folds, true); }},
       {"size_aware",
        [](const Subject& s) {
          return by_walks(s, Automatic_segmentation().with_merge_cost(Size_aware_cost_policy()));
@@ -306,6 +315,10 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
        [](const Subject& s) {
          return by_walks(
              s, Automatic_segmentation(typical_number_of_segments(s)).with_merge_cost(Size_aware_cost_policy()));
+       }},
+      {"size_aware_levels",
+       [](const Subject& s) {
+         return by_walks(s, Automatic_segmentation().with_merge_cost(Size_aware_cost_policy()), true);
        }},
       {"paper", [](const Subject& s) { return by_walks(s, Paper_segmentation()); }},
       {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
@@ -347,15 +360,26 @@ void add_comparison(Score& score, const Labels& a, const Labels& b, double weigh
   score.local_consistency += weight * overlaps.local_consistency_error();
 }
 
+/// \param labels by face of the mesh that was segmented
+Labels on_original(const Subject& subject, const Labels& labels) {
+  Labels result;
+  for (const Face f : subject.nearest) result.push_back(labels[f]);
+  return result;
+}
+
 /// \param automatic the labels of the direct automatic segmentation
 Score score_of(const Subject& subject, const Method& method, const Labels& automatic) {
   Outcome_of_method outcome = method(subject);
-  Labels labels;
-  for (const Face f : subject.nearest) labels.push_back(outcome.labels[f]);
+  std::vector<Labels> levels = {on_original(subject, outcome.labels)};
+  for (const Labels& level : outcome.other_levels) levels.push_back(on_original(subject, level));
   Score score;
   score.number = subject.number;
-  for (const Labels& person : subject.people)
-    add_comparison(score, labels, person, 1 / static_cast<double>(subject.people.size()));
+  for (const Labels& person : subject.people) {
+    const auto error = [&](const Labels& labels) { return Overlaps(labels, person).rand_index_error(); };
+    const auto& best = *std::min_element(levels.begin(), levels.end(),
+                                         [&](const Labels& a, const Labels& b) { return error(a) < error(b); });
+    add_comparison(score, best, person, 1 / static_cast<double>(subject.people.size()));
+  }
   score.segments = static_cast<double>(number_of_segments(outcome.labels));
   score.overlap = 1 - Overlaps(outcome.labels, automatic).hamming_distance();
   for (const auto& stage : outcome.stages) score.milliseconds += 1000 * stage.seconds;
@@ -548,7 +572,7 @@ int main(int argc, char* argv[]) {
     if (!folds.empty()) {
       if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
       trees_of_folds.emplace(trees);
-      chosen = {"automatic", "size_aware", "count", "size_aware_count"};
+      chosen = {"automatic", "size_aware", "count", "size_aware_count", "levels", "size_aware_levels"};
     }
     const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 

@@ -16,17 +16,22 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <vector>
 
 namespace {
 
 using namespace segment_mesh;
 
-void list(const Json& segments) {
+void list(const Json& report) {
   std::printf("label     faces    area\n");
-  for (const Json& s : segments)
+  for (const Json& s : report["segments"])
     std::printf("%5zu %9zu %6.2f %%\n", s["label"].get<std::size_t>(), s["faces"].get<std::size_t>(),
                 100 * s["area_share"].get<double>());
+  std::string others;
+  for (const auto& level : report.value("levels", std::vector<std::size_t>()))
+    if (level != report["segments"].size()) others += (others.empty() ? "" : " or ") + std::to_string(level);
+  if (!others.empty()) std::printf("You may also try --segments %s.\n", others.c_str());
 }
 
 Exit_code run_one(const Task& task, const Options& options) {
@@ -35,7 +40,7 @@ Exit_code run_one(const Task& task, const Options& options) {
     return success;
   }
   const Json report = run(task, options, "");
-  if (!options.is_quiet) list(report["segments"]);
+  if (!options.is_quiet) list(report);
   return success;
 }
 

@@ -498,6 +498,38 @@ TEST(SegmentHierarchy, NumberOfSegmentsOutOfReachIsAnError) {
   }
 }
 
+TEST(SegmentHierarchy, OffersTheLevelsThatLastLongest) {
+  // Costs rise by a tenth from merge to merge, and jump at 14, at 8 and at 5 segments. That at 2 is too far away.
+  std::vector<Merge_tree::Merge> merges;
+  double cost = 0.01;
+  for (std::size_t segments = 30; segments > 1; --segments) {
+    cost *= segments == 14 || segments == 8 || segments == 5 || segments == 2 ? 2 : 1.1;
+    merges.push_back({30 - segments, 59 - segments, cost});
+  }
+  const Merge_tree tree(30, merges);
+  EXPECT_EQ(tree.levels(8), (Labels{5, 8, 14}));
+  EXPECT_EQ(tree.levels(10), (Labels{5, 10, 14})) << "8 is too close to 10 to be another answer";
+  for (std::size_t chosen = 1; chosen <= 30; ++chosen) {
+    const Labels levels = tree.levels(chosen);
+    EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
+    EXPECT_EQ(std::count(levels.begin(), levels.end(), chosen), 1);
+    for (const std::size_t level : levels) EXPECT_LE(tree.segment_of_fragments(level).size(), 30u);
+    const double ratio = static_cast<double>(levels.back()) / static_cast<double>(levels.front());
+    EXPECT_LE(ratio, 4) << chosen;
+  }
+  EXPECT_EQ(tree.levels(1), (Labels{1, 2}));
+  EXPECT_EQ(tree.levels(30).back(), 30u) << "no level has more segments than there are fragments";
+  EXPECT_THROW(tree.levels(31), std::invalid_argument);
+}
+
+TEST(SegmentHierarchy, OffersNoFewerSegmentsThanComponents) {
+  const Merge_tree tree(8, {{0, 1, 0.1}, {2, 3, 0.2}, {4, 5, 0.3}, {6, 7, 0.4}});  // four components
+  EXPECT_EQ(tree.levels(4), (Labels{4, 6}));
+  EXPECT_EQ(tree.levels(6), (Labels{4, 6})) << "components are the level that lasts for ever";
+  EXPECT_THROW(tree.levels(3), std::invalid_argument);
+  EXPECT_EQ(Merge_tree().levels(0), Labels{0});
+}
+
 TEST(StopPredicates, StopWhereTheySay) {
   const Merge_tree tree(6, {{0, 1, 0.1}, {2, 3, 0.3}, {6, 7, 0.2}, {4, 5, 0.9}, {8, 9, 0.4}});
   EXPECT_EQ(Segment_count_stop(4)(tree), 4u);

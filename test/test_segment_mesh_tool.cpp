@@ -665,6 +665,25 @@ TEST_F(Segment_mesh_tool, EachChoiceGivesAsManySegmentsAsAskedForAndIsReported) 
     }
 }
 
+TEST_F(Segment_mesh_tool, OtherLevelsArePrintedAndReported) {
+  write("tower.off", tower(3));
+  const Result result = run({"tower.off", "--labels", "t.seg", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto report = nlohmann::json::parse(content_of(path("r.json")));
+  const auto levels = report["levels"].get<std::vector<std::size_t>>();
+  ASSERT_GT(levels.size(), 1U);
+  const std::size_t suggested = report["segments"].size();
+  EXPECT_EQ(std::count(levels.begin(), levels.end(), suggested), 1);
+  std::string others;
+  for (const std::size_t level : levels)
+    if (level != suggested) others += (others.empty() ? "" : " or ") + std::to_string(level);
+  EXPECT_NE(result.output.find("You may also try --segments " + others + ".\n"), std::string::npos) << result.output;
+
+  const Result seeded = run({"tower.off", "--labels", "t.seg", "--report", "r.json", "--seed", "0"});
+  ASSERT_EQ(seeded.exit_code, 0) << seeded.errors;
+  EXPECT_FALSE(nlohmann::json::parse(content_of(path("r.json"))).contains("levels")) << "seeds make no hierarchy";
+}
+
 TEST_F(Segment_mesh_tool, ThePresetsAreChoices) {
   write("tower.off", tower(3));
   const auto outcome = [&](const std::vector<std::string>& arguments) {

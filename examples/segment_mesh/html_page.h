@@ -105,7 +105,8 @@ inline Json levels_of(const Segmentation& result) {
           {"costs", base64_of<double>(costs)},
           {"fragments", result.tree.number_of_fragments()},
           {"fewest", result.tree.number_of_components()},
-          {"suggested", result.suggested}};
+          {"suggested", result.suggested},
+          {"levels", result.tree.levels(result.suggested)}};
 }
 
 /// What a natural shape was segmented by, as a page takes it.

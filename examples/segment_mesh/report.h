@@ -94,6 +94,7 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
                  {"version", version()}};
   for (const Segment& s : segments)
     report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
+  if (!result.fragment.empty()) report["levels"] = result.tree.levels(result.suggested);
   for (std::size_t s = 0; s < result.surfaces.size(); ++s)
     report["segments"][s]["surface"] = surface_of(result.surfaces[s]);
   return report;

@@ -148,6 +148,30 @@ class Hierarchy:
         """How many segments the shape suggests."""
         return self._core.suggested
 
+    def levels(self, segments: int | None = None) -> list[int]:
+        """List the numbers of segments that people may prefer: a given one, and a coarser and a finer one.
+
+        The coarser level has from half to 1 / 1.4 times as many segments, the finer one from 1.4 times to twice as many. Each
+        is the one of these whose next merge costs the most times what the merges before it did.
+
+        Parameters
+        ----------
+        segments : int, optional
+            From `number_of_components` to `number_of_fragments`; by default as many as the shape suggests.
+
+        Returns
+        -------
+        list of int
+            One to three numbers, rising.
+
+        Raises
+        ------
+        ValueError
+            If there is no level of so many segments.
+        """
+        number = self.suggested if segments is None else integer_of(segments, "the number of segments", 0)
+        return self._core.levels(number)
+
     @property
     def merges(self) -> NDArray[np.int64]:
         """The two regions of each merge, shape (merges, 2)."""

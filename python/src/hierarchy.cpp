@@ -9,6 +9,7 @@
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <optional>
 #include <utility>
@@ -90,7 +91,9 @@ void define_hierarchy(nb::module_& m) {
           [](const Hierarchy& h) { return array_of(std::vector<std::int64_t>(h.fragment_of_face)); },
           nb::rv_policy::move)
       .def_prop_ro("report", &report, nb::for_getter(nb::sig("def report(self, /) -> dict[str, typing.Any]")))
-      .def("labels", &labels, nb::arg("number"));
+      .def("labels", &labels, nb::arg("number"))
+      .def(
+          "levels", [](const Hierarchy& h, std::size_t number) { return h.tree.levels(number); }, nb::arg("number"));
   m.def("hierarchy", &hierarchy, nb::arg("mesh"), nb::arg("choices"), nb::arg("seeds"), nb::arg("difference").none(),
         nb::arg("walls").none(), nb::arg("progress").none());
 }

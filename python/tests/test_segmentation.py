@@ -62,6 +62,13 @@ def test_levels_are_nested_and_have_as_many_segments_as_asked_for(elephant: Mesh
     for wrong in (0, levels.number_of_fragments + 1):
         with pytest.raises(ValueError, match="the number of segments"):
             levels.labels(wrong)
+        with pytest.raises(ValueError, match="the number of segments"):
+            levels.levels(wrong)
+    assert levels.suggested in levels.levels()
+    coarser, chosen, finer = levels.levels(10)
+    assert 5 <= coarser <= 7
+    assert chosen == 10
+    assert 14 <= finer <= 20
     with pytest.raises(ValueError, match="must not be negative"):
         levels.labels(-1)
 

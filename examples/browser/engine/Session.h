@@ -49,6 +49,7 @@ struct Levels {
   std::vector<std::uint32_t> merged_regions;  ///< two a merge
   std::vector<double> costs;                  ///< of the merges
   std::size_t fragments = 0, components = 0, suggested = 0;
+  std::vector<std::uint32_t> offered;  ///< numbers of segments that people may prefer, that one among them
 };
 
 /// Curves on the surface, one after the other.
@@ -178,6 +179,8 @@ class Session {
     levels.fragments = hierarchy.number_of_fragments();
     levels.components = hierarchy.number_of_components();
     levels.suggested = stop(hierarchy);
+    for (const std::size_t level : hierarchy.levels(levels.suggested))
+      levels.offered.push_back(static_cast<std::uint32_t>(level));
     levels.fragment_of_face.resize(mesh().number_of_faces());
     hierarchy.segments(RW_segmentation::Segment_count_stop(levels.fragments),
                        face_map(mesh(), levels.fragment_of_face));

@@ -118,6 +118,7 @@ class Engine {
       result.set("fragments", levels.fragments);
       result.set("fewest", levels.components);
       result.set("suggested", levels.suggested);
+      result.set("levels", array_of(levels.offered));
       return result;
     });
   }

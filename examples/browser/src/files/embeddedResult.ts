@@ -21,7 +21,7 @@ type Written = Omit<EmbeddedResult, 'mesh' | 'segmentOfFace' | 'hierarchy'> & {
   hierarchy:
     | ({ fragmentOfFace: string; merges: string; costs: string } & Pick<
         Hierarchy,
-        'fragments' | 'fewest' | 'suggested'
+        'fragments' | 'fewest' | 'suggested' | 'levels'
       >)
     | null;
 };

@@ -42,13 +42,14 @@ export function automaticPanel({ automatic, mesh }: Session): void {
     const level = automatic.level.value;
     byId('level').hidden = level === null;
     if (!level) return;
-    const { fewest, fragments, suggested } = level.hierarchy;
+    const { fewest, fragments, suggested, levels } = level.hierarchy;
     parts.min = String(fewest);
     parts.max = String(Math.min(fragments, Math.max(mostParts, suggested, fewest, level.parts)));
     parts.value = String(level.parts);
     byId('parts-value').textContent = String(level.parts);
+    byId('levels').replaceChildren(...Array.from(levels, (parts) => new Option('', String(parts))));
     byId('level-remark').textContent =
-      `The shape suggests ${suggested}. ` +
+      `${suggestion(suggested, levels)} ` +
       (level.milliseconds === undefined ? '' : `Found in ${seconds(level.milliseconds)}.`);
   });
 }
@@ -65,6 +66,13 @@ function policies(automatic: AutomaticSegmentation): void {
   effect(() => {
     for (const [policy, list] of lists) list.value = automatic.policies.value[policy];
   });
+}
+
+function suggestion(suggested: number, levels: ArrayLike<number>): string {
+  const others = Array.from(levels).filter((parts) => parts !== suggested);
+  return others.length === 0
+    ? `The shape suggests ${suggested}.`
+    : `The shape suggests ${suggested}; people may prefer ${others.join(' or ')}.`;
 }
 
 function seconds(milliseconds: number): string {

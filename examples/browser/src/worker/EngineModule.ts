@@ -69,6 +69,8 @@ export interface Hierarchy {
   fewest: number;
   /** The number of segments that the shape suggests. */
   suggested: number;
+  /** The numbers of segments that people may prefer, that one among them, rising. */
+  levels: ArrayLike<number>;
 }
 
 /** Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */

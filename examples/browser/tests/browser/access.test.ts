@@ -146,7 +146,7 @@ test('a result that was put into the page is shown when it is opened from disk',
   expect(hierarchy.fragments).toBe(6);
   const labels = Uint32Array.from(hierarchy.fragmentOfFace);
   const base64 = (array: Uint32Array | Float64Array) => Buffer.from(array.buffer).toString('base64');
-  const { fragments, fewest, suggested } = hierarchy;
+  const { fragments, fewest, suggested, levels } = hierarchy;
   const result = {
     name: 'result.off',
     mesh: Buffer.from(asciiPly(mesh)).toString('base64'),
@@ -158,6 +158,7 @@ test('a result that was put into the page is shown when it is opened from disk',
       fragments,
       fewest,
       suggested,
+      levels: Array.from(levels),
     },
     segments: 6,
     mode: 'engineering',

@@ -22,6 +22,22 @@ test('the slider gives as many parts as it says, and the walk runs once', async 
   expect(calls.segment).toBeUndefined();
 });
 
+test('the slider marks the numbers of parts that people may prefer', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(24);
+  await segmentation.openMesh('bumps.off', mesh);
+  await page.click('#tab-automatic');
+  await page.click('#compute');
+  await expect(page.locator('#parts')).toBeVisible();
+  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+  const { levels, suggested } = answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
+  expect(levels.length).toBeGreaterThan(1);
+  const marks = await page.locator('#levels option').evaluateAll((list) => list.map((o) => (o as HTMLOptionElement).value));
+  expect(marks).toEqual(Array.from(levels, String));
+  for (const parts of levels) await expect(page.locator('#level-remark')).toContainText(String(parts));
+  expect(Array.from(levels)).toContain(suggested);
+});
+
 test('the parts are those that the engine finds', async ({ segmentation }) => {
   const { page } = segmentation;
   const mesh = bumpySphere(24);

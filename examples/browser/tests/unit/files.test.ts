@@ -115,6 +115,7 @@ test('embedded results are read', () => {
       fragments: 2,
       fewest: 1,
       suggested: 2,
+      levels: [2],
     },
     segments: 2,
     mode: 'graphical',
