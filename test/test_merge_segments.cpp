@@ -524,7 +524,7 @@ TEST(SegmentHierarchy, OffersTheLevelsThatLastLongest) {
 
 TEST(SegmentHierarchy, OffersNoFewerSegmentsThanComponents) {
   const Merge_tree tree(8, {{0, 1, 0.1}, {2, 3, 0.2}, {4, 5, 0.3}, {6, 7, 0.4}});  // four components
-  EXPECT_EQ(tree.levels(4), (Labels{4, 6}));
+  EXPECT_EQ(tree.levels(4), (Labels{4, 7}));
   EXPECT_EQ(tree.levels(6), (Labels{4, 6})) << "components are the level that lasts for ever";
   EXPECT_THROW(tree.levels(3), std::invalid_argument);
   EXPECT_EQ(Merge_tree().levels(0), Labels{0});

@@ -18,9 +18,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -219,6 +221,67 @@ TEST(Smoothed_face_normals, ComeFromASolverThatConvergesToTheDenseSolution) {
       for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
         EXPECT_LT(mean_angle(solution(shape, radius, tolerance).vectors, expected), 5 * tolerance)
             << shape.faces.size() << " faces, radius " << radius;
+    }
+}
+
+/// A tube of `n` by `n` equal squares, and vectors on it that are sums of waves: diffusion lessens each wave by a factor that
+/// has a closed form, since squares round a tube are coupled as the points of a ring, and those along it as those of a path.
+struct Waves {
+  meshes::Shape tube;
+  Normals before, after;  // by square
+
+  Waves(std::size_t n, double radius) {
+    const double side = 2 * std::sin(meshes::pi / static_cast<double>(n));
+    for (std::size_t along = 0; along <= n; ++along)
+      for (std::size_t around = 0; around < n; ++around) {
+        const double angle = 2 * meshes::pi * static_cast<double>(around) / static_cast<double>(n);
+        tube.points.emplace_back(std::cos(angle), std::sin(angle), side * static_cast<double>(along));
+      }
+    for (std::size_t along = 0; along < n; ++along)
+      for (std::size_t around = 0; around < n; ++around) {
+        const std::size_t next = (around + 1) % n, row = n * along;
+        tube.faces.push_back({row + around, row + next, row + n + next, row + n + around});
+      }
+    // The weight |e|^2 / (4/3 A) of the edge of a square of area A = |e|^2, times the square of the length of diffusion.
+    const double weight = radius * radius * static_cast<double>(n * n) * 3 / 4;
+    before.assign(n * n, Eigen::Vector3d(4, 4, 4));
+    after = before;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> phase(0, 2 * meshes::pi);
+    for (std::size_t wave = 0; wave < 24; ++wave) {
+      const std::size_t around = random() % (2 << (wave / 4)), along = random() % (2 << (wave / 4));
+      const double turn = 2 * meshes::pi * static_cast<double>(around) / static_cast<double>(n), begin = phase(random);
+      const double step = meshes::pi * static_cast<double>(along) / static_cast<double>(n);
+      const double factor = 1 / (1 + weight * (4 - 2 * std::cos(turn) - 2 * std::cos(step)));
+      for (std::size_t f = 0; f < n * n; ++f) {
+        const double height =
+            std::cos(step * (static_cast<double>(f / n) + 0.5)) * std::cos(turn * static_cast<double>(f % n) + begin);
+        before[f][static_cast<Eigen::Index>(wave % 3)] += height / 3;
+        after[f][static_cast<Eigen::Index>(wave % 3)] += factor * height / 3;
+      }
+    }
+  }
+};
+
+TEST(Smoothed_face_normals, ComeFromASolverThatKeepsItsToleranceHoweverFarItDiffuses) {
+  for (const std::size_t n : {30U, 100U, 180U})
+    for (const double radius : {0.01, 0.03, 0.1}) {
+      const Waves waves(n, radius);
+      const meshes::Surface_mesh mesh = meshes::surface_mesh(waves.tube);
+      const Dual_mesh_of dual(mesh);
+      Normals before(n * n);
+      for (std::uint32_t f = 0; f < n * n; ++f) before[f] = waves.before[dual.place(f)];
+      RW_segmentation::internal::Face_diffusion diffusion(dual, radius * radius * dual.total_area());
+      for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+        Normals found = before;
+        diffusion.solve(before, found, tolerance, RW_segmentation::Progress());
+        double sum = 0;
+        for (std::uint32_t f = 0; f < n * n; ++f) {
+          const Eigen::Vector3d& expected = waves.after[dual.place(f)];
+          sum += (found[f] - expected).squaredNorm() / expected.squaredNorm();
+        }
+        EXPECT_LE(std::sqrt(sum / static_cast<double>(n * n)), tolerance) << n << " x " << n << ", radius " << radius;
+      }
     }
 }
 

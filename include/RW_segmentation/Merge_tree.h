@@ -105,6 +105,7 @@ class Merge_tree {
   /// components, which no merge ends, lasts for ever.
   std::size_t longest_level(std::size_t fewest, std::size_t most) const {
     double highest = std::numeric_limits<double>::min(), longest = -1;
+    if (!merges_.empty()) highest = std::max(highest, merges_.front().cost);
     std::size_t level = most;
     for (std::size_t n = number_of_fragments(); n >= fewest; --n) {
       const std::size_t next = number_of_fragments() - n;

@@ -24,8 +24,9 @@ namespace RW_segmentation::internal {
 ///
 /// Solved by conjugate gradients for the three coordinates at once. The preconditioner is a multigrid cycle: a sweep of
 /// Gauss-Seidel forward and one backward over the faces, between them the same for aggregates of about four faces, for
-/// aggregates of those, and so on until mass outweighs diffusion. The number of iterations hardly grows with the mesh.
-/// Single precision will do, because only the correction to a start is computed and no link is stiffer than it can tell.
+/// aggregates of those, and so on until mass outweighs diffusion. It is a W-cycle, which sees smooth errors on large
+/// meshes, too. The number of iterations hardly grows with the mesh. Single precision will do, because only the correction
+/// to a start is computed and no link is stiffer than it can tell.
 class Face_diffusion {
  public:
   /// \param mesh with a face that has an area
@@ -46,6 +47,9 @@ class Face_diffusion {
   void solve(const std::vector<Eigen::Vector3d>& x0, std::vector<Eigen::Vector3d>& x, double tolerance,
              const Progress& progress) {
     constexpr int longest = 1000, longest_stall = 200;  // iterations
+    // An error over what a cycle would change: up to .65 on a hand of 2 to 612 thousand faces, 2.3 on tubes of squares where
+    // vectors are averaged over up to a tenth of the root of the area, and all waves are smooth.
+    constexpr double overlooked = 2.5;
     const std::size_t n = x.size();
     Level& level = levels_.front();
     Block& residual = level.right;
@@ -61,8 +65,7 @@ class Face_diffusion {
     int last_gain = 0;
     for (int iteration = 0;; ++iteration) {
       cycle(0);
-      // What the cycle would change is about the error.
-      const double error = relative_change(x, correction, preconditioned);
+      const double error = overlooked * relative_change(x, correction, preconditioned);
       if (error <= tolerance) break;
       if (iteration == 0) first = error;
       if (error < least) {
@@ -335,32 +338,54 @@ class Face_diffusion {
     }
   }
 
-  /// Approximately solves the system of a level for `right`, by an operation that is symmetric.
+  /// Approximately solves the system of a level for `right`, by an operation that is symmetric: sweeps forward and backward,
+  /// and between them a correction by the coarser level; two corrections where that is cheap, from the third level on.
   void cycle(std::size_t depth) {
     Level& level = levels_[depth];
-    Block& x = level.solution;
-    const std::size_t n = level.size();
-    const auto relax = [&](std::size_t i) {
-      Vector sum = level.right[i];
-      for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k) sum += level.links[k].weight * x[level.links[k].to];
-      x[i] = level.inverse_diagonal[i] * sum;
-    };
-
-    std::fill(x.begin(), x.end(), Vector::Zero());
-    for (std::size_t i = 0; i < n; ++i) relax(i);
+    std::fill(level.solution.begin(), level.solution.end(), Vector::Zero());
+    sweep_forward(level);
     if (depth + 1 < levels_.size()) {
-      Level& coarse = levels_[depth + 1];
-      std::fill(coarse.right.begin(), coarse.right.end(), Vector::Zero());
-      for (std::size_t i = 0; i < n; ++i) {
-        Vector residual = level.right[i] - level.mass[i] * x[i];
-        for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
-          residual += level.links[k].weight * (x[level.links[k].to] - x[i]);
-        coarse.right[level.aggregate[i]] += residual;
+      correct(depth);
+      if (depth > 1) {
+        sweep_backward(level);
+        sweep_forward(level);
+        correct(depth);
       }
-      cycle(depth + 1);
-      for (std::size_t i = 0; i < n; ++i) x[i] += coarse.solution[level.aggregate[i]];
     }
-    for (std::size_t i = n; i-- > 0;) relax(i);
+    sweep_backward(level);
+  }
+
+  /// Adds what the coarser level makes of the residual.
+  void correct(std::size_t depth) {
+    // An aggregate moves as one, which makes it too stiff: its corrections fall short. 1.2 to 1.6 take about as many
+    // iterations, on a hand of 2 to 612 thousand faces. Braess (1995) takes 1.8 for other aggregates.
+    constexpr float over_correction = 1.4F;
+    Level &level = levels_[depth], &coarse = levels_[depth + 1];
+    Block& x = level.solution;
+    std::fill(coarse.right.begin(), coarse.right.end(), Vector::Zero());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Vector residual = level.right[i] - level.mass[i] * x[i];
+      for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
+        residual += level.links[k].weight * (x[level.links[k].to] - x[i]);
+      coarse.right[level.aggregate[i]] += residual;
+    }
+    cycle(depth + 1);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += over_correction * coarse.solution[level.aggregate[i]];
+  }
+
+  static void sweep_forward(Level& level) {
+    for (std::size_t i = 0; i < level.size(); ++i) relax(level, i);
+  }
+  static void sweep_backward(Level& level) {
+    for (std::size_t i = level.size(); i-- > 0;) relax(level, i);
+  }
+
+  /// Solves the equation of a node, its neighbours being as they are.
+  static void relax(Level& level, std::size_t i) {
+    Vector sum = level.right[i];
+    for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
+      sum += level.links[k].weight * level.solution[level.links[k].to];
+    level.solution[i] = level.inverse_diagonal[i] * sum;
   }
 
   /// The root mean square of |change| / |x + correction|, each at most 1.
