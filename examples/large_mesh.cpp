@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// A large mesh in two ways: with the walk reduced to clusters of faces, as it is by itself above 300,000 faces, and by
+// A large mesh in two ways: with the walk reduced to clusters of faces, as it is by itself above 100,000 faces, and by
 // way of a simplified copy whose segments are carried back.
 //
 //   large_mesh MESH

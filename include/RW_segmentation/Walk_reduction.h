@@ -16,10 +16,10 @@ namespace RW_segmentation {
 /// Normals, differences, seeds, thickness and merging are those of the faces in any case. Clusters are fine around the
 /// seeds. Time then grows with about the power 1.1 of the number of faces, and memory is half as much.
 struct Walk_reduction {
-  /// Walks run over the faces of meshes with up to so many; 0 reduces every walk. Reduced, all stages together gain
-  /// nothing at 153 thousand faces and take .72 of the time at 612 thousand (`benchmark_scaling`); the default lies
-  /// between. They agree with people as well (`benchmark_princeton --faces 4 --method clusters`).
-  std::size_t largest_direct = 300000;
+  /// Walks run over the faces of meshes with up to so many; 0 reduces every walk. Reduced, all stages take .6 to .75 of the
+  /// time at 153 and 612 thousand faces (`benchmark_scaling`), and agree with people as well (`benchmark_princeton --faces 4
+  /// --method clusters`).
+  std::size_t largest_direct = 100000;
   /// The least distance between the roots of two clusters, in steps from face to face, on meshes of up to 2.5 million
   /// faces; grows with the square root of their number from there on, so that the number of clusters does not. With 3
   /// steps a cluster has about 5 triangles.
