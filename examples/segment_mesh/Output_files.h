@@ -13,6 +13,7 @@
 #include "html_page.h"
 #include "report.h"
 #include "segments.h"
+#include "signals.h"
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +84,11 @@ class Output_files {
     if (split_) write_parts(soup, labels, segments);
   }
 
+  /// \param faces the numbers of the faces of the file that the mesh lacks
+  void write_left_out(const std::vector<std::size_t>& faces) {
+    if (!files_.left_out.empty()) mesh_files::write_labels(file(files_.left_out), faces);
+  }
+
   void write_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments) {
     if (page_) page_->write(file(files_.html), result_for_page(path, mesh, result, segments, options_));
   }
@@ -95,8 +101,17 @@ class Output_files {
   void commit(const Json& report) {
     if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
     for (mesh_files::Output_file& file : open_) file.flush();
-    for (mesh_files::Output_file& file : open_) file.commit();
+    is_committing = 1;
+    try {
+      for (mesh_files::Output_file& file : open_) file.commit();
+    } catch (...) {
+      is_committing = 0;
+      throw;
+    }
     if (split_) split_->keep();
+    open_.clear();
+    split_.reset();
+    is_committing = 0;
   }
 
  private:
@@ -126,10 +141,10 @@ class Output_files {
     const mesh_files::Polygon_soup& written = options_.has_point_colors ? apart : soup;
     const mesh_files::Colors colors = colors_of(written, face_colors);
     for (const std::string& path : files_.outputs) {
-      const std::string extension = mesh_files::extension_of(path);
-      if (extension == ".ply") {
+      const mesh_files::Format format = format_of_output(path, options_);
+      if (format == mesh_files::Format::ply) {
         mesh_files::write_ply(file(path), written, colors, labels);
-      } else if (extension == ".off") {
+      } else if (format == mesh_files::Format::off) {
         mesh_files::write_off(file(path), written, colors);
       } else {
         const std::string materials = material_library_of(path);
