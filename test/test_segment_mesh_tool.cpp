@@ -961,7 +961,7 @@ TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
   expect_failure(1, "--probabilities", {"strip.off", "--probabilities", "p.txt"});
   expect_failure(1, "--hierarchy", {"strip.off", "--seed", "1", "--hierarchy", "h.json"});
   expect_failure(1, "--page", {"strip.off", "--page", "page.html"});
-  expect_failure(1, "out.stl is neither .ply nor .off nor .obj", {"strip.off", "--seed", "0", "-o", "out.stl"});
+  expect_failure(1, "out.xyz is none of .ply, .off, .obj, ", {"strip.off", "--seed", "0", "-o", "out.xyz"});
   expect_failure(1, "strip.off is an input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
   expect_failure(1, "a.off is an input or another output",
                  {"strip.off", "--seed", "0", "-o", "a.off", "--labels", "a.off"});

@@ -39,6 +39,16 @@ inline bool has_placeholder(std::string pattern) {
   return pattern.find('%') != std::string::npos || pattern.find("{folder}") != std::string::npos;
 }
 
+/// The formats of meshes that are written.
+enum class Output_format { ply, off, obj, stl, text_stl, glb, three_mf, msh, medit, vtp };
+
+/// What files of a format end with, without the dot; the last one is a choice of `--output-format` only.
+inline const Names<Output_format> output_format_names = {
+    {"ply", Output_format::ply},          {"off", Output_format::off},    {"obj", Output_format::obj},
+    {"stl", Output_format::stl},          {"glb", Output_format::glb},    {"3mf", Output_format::three_mf},
+    {"msh", Output_format::msh},          {"mesh", Output_format::medit}, {"vtp", Output_format::vtp},
+    {"stl-text", Output_format::text_stl}};
+
 /// The files that belong to a mesh. Those not asked for are empty.
 struct Files {
   std::vector<std::string> outputs;
@@ -55,8 +65,8 @@ class Argument_out_of_range : public std::invalid_argument {
 struct Options : Choices {
   std::vector<std::string> meshes;
   std::string list;
-  std::optional<mesh_files::Format> format;         ///< of the meshes, whatever their names
-  std::optional<mesh_files::Format> output_format;  ///< of outputs whose names tell none
+  std::optional<mesh_files::Format> format;    ///< of the meshes, whatever their names
+  std::optional<Output_format> output_format;  ///< of outputs whose names tell none
   bool resumes = false;
   Repairs repairs;
 
@@ -123,14 +133,24 @@ inline void check_method(const Options& options) {
 
 /// The format of a coloured mesh that is written.
 /// \throws CLI::ValidationError if neither the path nor an option tells
-inline mesh_files::Format format_of_output(const std::string& path, const Options& options) {
+inline Output_format format_of_output(const std::string& path, const Options& options) {
   const std::string extension = mesh_files::extension_of(path);
   const bool tells_none = extension.empty() || mesh_files::open_file_of(path);
   if (tells_none && options.output_format) return *options.output_format;
-  for (const auto& [name, format] : mesh_files::format_names)
-    if (extension == std::string(".") + name && format != mesh_files::Format::stl) return format;
-  throw CLI::ValidationError(
-      "--output", path + " is neither .ply nor .off nor .obj" + (tells_none ? ": give --output-format, too" : ""));
+  if (extension == ".stl" && options.output_format == Output_format::text_stl) return Output_format::text_stl;
+  std::string known;
+  for (const auto& [name, format] : output_format_names) {
+    if (extension == "." + name) return format;
+    if (format != Output_format::text_stl) known += (known.empty() ? "." : ", .") + name;
+  }
+  throw CLI::ValidationError("--output",
+                             path + " is none of " + known + (tells_none ? ": give --output-format, too" : ""));
+}
+
+/// What the files of `--split` end with.
+inline std::string extension_of_parts(const Options& options) {
+  const Output_format format = options.output_format.value_or(Output_format::ply);
+  return "." + name_of(output_format_names, format == Output_format::text_stl ? Output_format::stl : format);
 }
 
 /// Refuses options that do not go together.
@@ -146,6 +166,8 @@ inline void check_combinations(const Options& options) {
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
   for (const std::string& path : files.outputs) format_of_output(path, options);
+  if (!files.split.empty() && options.output_format == Output_format::obj)
+    throw CLI::ValidationError("--output-format", "parts of --split are no OBJ files, which need others beside them");
 }
 
 /// How segments are found: as agrees best with people or as in the paper, and otherwise as asked for.

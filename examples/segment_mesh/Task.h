@@ -192,7 +192,7 @@ inline bool is_done(const Task& task) {
   const fs::directory_iterator parts(task.files.split, error);
   // A part that has not got its name yet was left by a program that was killed.
   return !error && parts != fs::directory_iterator() && std::all_of(begin(parts), end(parts), [&](const auto& part) {
-    return part.path().extension() == ".ply" && is_new(part.path());
+    return part.path().string().find(".part", task.files.split.size()) == std::string::npos && is_new(part.path());
   });
 }
 

@@ -23,7 +23,6 @@ inline const Names<mesh_files::Format> format_names = {{"off", mesh_files::Forma
                                                        {"ply", mesh_files::Format::ply},
                                                        {"obj", mesh_files::Format::obj},
                                                        {"stl", mesh_files::Format::stl}};
-inline const Names<mesh_files::Format> output_format_names(format_names.begin(), format_names.end() - 1);
 
 /// Adds an option with a few named choices.
 template <class Choice>
@@ -207,19 +206,24 @@ inline void define_command_line(CLI::App& app, Options& options) {
 
   app.add_option(
          "-o,--output", options.files.outputs,
-         "The coloured mesh: .ply, .off, or .obj with a group and a material for each segment. Repeatable. A PLY file\n"
-         "also holds the labels (\"segment\"), an OBJ file gets a file .mtl beside it.")
+         "The coloured mesh, as the name ends. .ply and .vtp hold the labels (\"segment\"), .off colours; .obj (with "
+         "a\n"
+         "file .mtl beside it) and .glb have a group or primitive and a material for each segment, .3mf an object,\n"
+         ".msh a physical group, .mesh references, and .stl colours of facets. Repeatable.")
       ->allow_extra_args(false)
       ->option_text("FILE")
       ->group("Output");
-  add_choice(app, "--output-format", options.output_format, output_format_names,
-             "What an --output is whose name does not tell, such as /dev/stdout", "Output");
+  add_choice(
+      app, "--output-format", options.output_format, output_format_names,
+      "What an --output is whose name does not tell, such as /dev/stdout, and the parts of --split (PLY). stl-text\n"
+      "makes files .stl texts, with a solid for each segment.",
+      "Output");
   app.add_flag(
          "--point-colors", options.has_point_colors,
          "Colour points instead of faces, for viewers that do not show colours of faces. Points between segments\n"
          "are written once for each segment.")
       ->group("Output");
-  app.add_option("--labels", options.files.labels, "One label a line for each face")
+  app.add_option("--labels", options.files.labels, "One label a line for each face; or NumPy's .npz, or .csv")
       ->option_text("FILE")
       ->group("Output");
   app.add_option("--left-out", options.files.left_out,
@@ -227,11 +231,11 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->option_text("FILE")
       ->group("Output");
   app.add_option("--split", options.files.split,
-                 "One mesh for each segment, in a new or empty folder: segment_LABEL.ply")
+                 "One mesh for each segment, in a new or empty folder: segment_LABEL.ply, or as --output-format tells")
       ->option_text("FOLDER")
       ->group("Output");
   app.add_option("--probabilities", options.files.probabilities,
-                 "One line for each face, one column for each label; the first line names the labels")
+                 "One line for each face, one column for each label; the first line names the labels; or .npz, or .csv")
       ->option_text("FILE")
       ->group("Output");
   app.add_option("--hierarchy", options.files.hierarchy, "All merges, as JSON: any number of segments can be read off")

@@ -25,12 +25,14 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "point; faces are numbered from 0 in the order of the file. Edges that no segment may cross: --constraints.\n",
      false},
     {"Outputs",
-     "Every output keeps the order of the faces in the file, only OBJ has them segment by segment. Faces that a "
-     "repair\n"
-     "leaves out get the label of the closest face; with --refine, the mesh is written without them. Outputs are\n"
-     "written whole or not at all: what was there stays until a new file is complete. Only a program that is killed\n"
-     "by SIGKILL leaves files .part* behind, which may be removed. Without an output, the segments are only listed;\n"
-     "they are not where an output is /dev/stdout.\n",
+     "Every output keeps the order of the faces in the file, only OBJ, glTF, 3MF, Gmsh and STL texts have them "
+     "segment\n"
+     "by segment. Faces that a repair leaves out get the label of the closest face; with --refine, the mesh is "
+     "written\n"
+     "without them. Outputs are written whole or not at all: what was there stays until a new file is complete. Only "
+     "a\n"
+     "program that is killed by SIGKILL leaves files .part* behind, which may be removed. Without an output, the\n"
+     "segments are only listed; they are not where an output is /dev/stdout.\n",
      false},
     {"Input",
      "OFF, PLY, OBJ and STL, packed by gzip or not; the first bytes tell which, and where they do not, the name or\n"
