@@ -7,6 +7,7 @@ import importlib
 import json
 import os
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -262,3 +263,31 @@ def test_parts_are_written_in_any_format(format_name: str, tool: Path, tmp_path:
     extension = format_name.split("-")[0]
     names = sorted(path.name for path in (tmp_path / "parts").iterdir())
     assert names == [f"segment_{label}.{extension}" for label in (0, 3, 7)]
+
+
+def check_folder(tool: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run the program that checks answers on a folder."""
+    program = Path(__file__).resolve().parents[2] / "benchmark/check_folder.py"
+    return subprocess.run(
+        [sys.executable, str(program), str(tool), str(folder), "--", "--seed", "0"], capture_output=True, text=True
+    )
+
+
+def test_answers_to_a_folder_are_checked_by_a_second_reader(tool: Path, tmp_path: Path) -> None:
+    meshes = tmp_path / "meshes"
+    (meshes / "more").mkdir(parents=True)
+    trimesh.creation.icosphere(subdivisions=2).export(meshes / "sphere.stl")
+    trimesh.creation.box().export(meshes / "more/box.obj")
+    (meshes / "page.off").write_text("<html></html>")
+    (meshes / "readme.txt").write_text("no mesh")
+    checked = check_folder(tool, meshes)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "3 meshes: 2 right, 0 that trimesh does not read, 1 refused by both, 0 different" in checked.stdout
+
+    # A tool that writes the same wrong answer to all.
+    wrong = tmp_path / "wrong"
+    wrong.write_text(f'#!/bin/sh\nshift\nexec {tool} {meshes / "more/box.obj"} "$@"\n')
+    wrong.chmod(0o755)
+    checked = check_folder(wrong, meshes)
+    assert checked.returncode == 1
+    assert "sphere.stl: the box is" in checked.stdout
