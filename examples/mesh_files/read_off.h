@@ -89,7 +89,8 @@ inline Polygon_soup::Point read_point(Text& text, bool has_weight, Layout layout
     p[i] = text.coordinate(names[i]);
   }
   for (std::size_t i = 0; i < 3; ++i)
-    if (!std::isfinite(p[i] / p[3])) text.fail("a vertex at infinity: its weight is " + std::to_string(p[3]));
+    if (p[3] == 0 || !std::isfinite(p[i] / p[3]))
+      text.fail("a vertex at infinity: its weight is " + std::to_string(p[3]));
   return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
 }
 
