@@ -3,6 +3,7 @@
 #include "../examples/mesh_files.h"
 #include "../test/defects.h"
 #include "../test/dialects.h"
+#include "../test/large_shapes.h"
 #include "measurement.h"
 
 #include <CLI/CLI.hpp>
@@ -47,6 +48,7 @@ struct Arguments {
       "mushroom", "oblong-shuffled", "open_cube", "pipe",     "rotor",   "torus_quad"};
   std::vector<std::string> dialect_meshes = {"cube", "hand"};
   std::vector<std::string> defects;
+  bool are_shapes_large = false;
   unsigned seconds = 120, megabytes = 4000;
 };
 
@@ -223,6 +225,23 @@ Result dialect_result(const Workplace& workplace, const Arguments& arguments) {
   return result;
 }
 
+/// How long the tool takes for the meshes of the kinds that take longest, in each mode.
+void measure_large_shapes(const Workplace& workplace) {
+  for (const auto& [name, make] : large_shapes::all()) {
+    const defects::Soup soup = make();
+    workplace.write(defects::off_text(soup));
+    for (const auto& [mode, options] : modes) {
+      const Stopwatch watch;
+      const std::string fault = workplace.fault(options);
+      const double milliseconds = watch.milliseconds();
+      Result result("large_shapes");
+      result.add("mesh", name).add("faces", soup.faces.size()).add("mode", mode).add("ms", milliseconds);
+      result.add("outcome", fault.empty() ? "correct" : fault == "refused" ? fault : "wrong");
+      print({result});
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -239,12 +258,18 @@ int main(int argc, char** argv) try {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--defects", arguments.defects, "Defects and dialects by their names; all by default")->delimiter(',');
+  app.add_flag("--large-shapes", arguments.are_shapes_large,
+               "In place of all that, the time that each mode takes for meshes of the kinds that take longest");
   app.add_option("--seconds", arguments.seconds, "Of a run at most")->capture_default_str();
   app.add_option("--megabytes", arguments.megabytes, "Of a run at most")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   arguments.tool = std::filesystem::absolute(arguments.tool).string();
 
   const Workplace workplace(arguments);
+  if (arguments.are_shapes_large) {
+    measure_large_shapes(workplace);
+    return 0;
+  }
   std::map<std::string, std::size_t> totals;
   std::printf("%-30s %8s %8s %8s\n", "defect", "correct", "refused", "wrong");
   for (const defects::Defect& defect : defects::all()) {

@@ -127,6 +127,16 @@ TEST_F(Segment_mesh_tool, ErrorsNameTheOptionAndItsRange) {
   expect_failure(1, "--measure: foo is none of angle, cosine", {"strip.off", "--measure", "foo"});
 }
 
+TEST_F(Segment_mesh_tool, AnOutputFormatThatNothingTakesIsRefused) {
+  write("strip.off", strip(3));
+  expect_failure(1, "--output-format: the name of each --output tells",
+                 {"strip.off", "-o", "o.ply", "--output-format", "stl"});
+  expect_failure(1, "--output-format: parts of --split are no OBJ",
+                 {"strip.off", "--split", "p", "--output-format", "obj"});
+  for (const auto& [output, format] : {std::pair<std::string, std::string>("o.stl", "stl-text"), {"o", "vtp"}})
+    EXPECT_EQ(run({"strip.off", "-o", output, "--output-format", format}).exit_code, 0) << output;
+}
+
 TEST_F(Segment_mesh_tool, ListsMayHaveComments) {
   write("a.off", strip(3));
   write("b.off", strip(3));

@@ -11,6 +11,7 @@
 #include <RW_segmentation/version.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -131,11 +132,16 @@ inline void check_method(const Options& options) {
          "nothing is merged: give --segments or --seeds, too, or no seeds");
 }
 
+/// Whether an output has a name that does not tell what it is.
+inline bool tells_no_format(const std::string& path) {
+  return mesh_files::extension_of(path).empty() || mesh_files::open_file_of(path);
+}
+
 /// The format of a coloured mesh that is written.
 /// \throws CLI::ValidationError if neither the path nor an option tells
 inline Output_format format_of_output(const std::string& path, const Options& options) {
   const std::string extension = mesh_files::extension_of(path);
-  const bool tells_none = extension.empty() || mesh_files::open_file_of(path);
+  const bool tells_none = tells_no_format(path);
   if (tells_none && options.output_format) return *options.output_format;
   if (extension == ".stl" && options.output_format == Output_format::text_stl) return Output_format::text_stl;
   std::string known;
@@ -166,6 +172,12 @@ inline void check_combinations(const Options& options) {
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
   for (const std::string& path : files.outputs) format_of_output(path, options);
+  const bool takes_format =
+      !files.split.empty() || std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
+        return tells_no_format(path) || format_of_output(path, options) == Output_format::text_stl;
+      });
+  if (options.output_format && !takes_format)
+    throw CLI::ValidationError("--output-format", "the name of each --output tells its format: leave it out");
   if (!files.split.empty() && options.output_format == Output_format::obj)
     throw CLI::ValidationError("--output-format", "parts of --split are no OBJ files, which need others beside them");
 }
