@@ -224,20 +224,18 @@ class Segment_mesh_signals : public Segment_mesh_tool {
 };
 
 TEST_F(Segment_mesh_signals, NoPartialFileSurvivesASignal) {
-  write("grid.off", grid(300));
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU})
-    for (const bool is_engineering : {false, true}) {
-      const pid_t process =
-          start(std::vector<std::string>{"grid.off", "--labels", "l.seg", "--split", "parts"} +
-                (is_engineering ? std::vector<std::string>{"--engineering"} : std::vector<std::string>{}));
-      wait_for("parts");
-      std::this_thread::sleep_for(std::chrono::milliseconds(is_engineering ? 100 : 0));
-      kill(process, signal);
-      const Result result = wait(process);
-      EXPECT_EQ(result.exit_code, 130) << signal << result.errors;
-      EXPECT_NE(result.errors.find("cancelled, nothing was written\n"), std::string::npos) << signal << result.errors;
-      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1) << signal;
-    }
+  write("grid.off", grid(120));
+  for (const auto& [signal, mode] : std::vector<std::pair<int, std::vector<std::string>>>{
+           {SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}, {SIGQUIT, {}}, {SIGXCPU, {}}, {SIGINT, {"--engineering"}}}) {
+    const pid_t process = start(std::vector<std::string>{"grid.off", "--labels", "l.seg", "--split", "parts"} + mode);
+    wait_for("parts");
+    if (!mode.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    kill(process, signal);
+    const Result result = wait(process);
+    EXPECT_EQ(result.exit_code, 130) << signal << result.errors;
+    EXPECT_NE(result.errors.find("cancelled, nothing was written\n"), std::string::npos) << signal << result.errors;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1) << signal;
+  }
 }
 
 TEST_F(Segment_mesh_signals, WhoIgnoresHangingUpGoesOn) {
