@@ -47,6 +47,7 @@ endfunction()
 find_package(OpenMesh QUIET CONFIG)
 find_package(CLI11 QUIET CONFIG)
 find_package(nlohmann_json QUIET CONFIG)
+find_package(ZLIB QUIET)
 
 find_package(CHOLMOD QUIET CONFIG)  # shipped with SuiteSparse since version 7
 if(NOT TARGET SuiteSparse::CHOLMOD)
@@ -65,6 +66,7 @@ use_optional_library(CHOLMOD SuiteSparse::CHOLMOD)
 use_optional_library(TBB CGAL::TBB_support)
 use_optional_library(CLI11 CLI11::CLI11)
 use_optional_library(NLOHMANN_JSON nlohmann_json::nlohmann_json)
+use_optional_library(ZLIB ZLIB::ZLIB)
 
 # The folder `data` of CGAL, with the meshes: given by the user, or unpacked from the archive in Debian's libcgal-demo.
 set(RW_SEGMENTATION_DATA_DIR "" CACHE PATH

@@ -40,7 +40,7 @@ Exit_code run_one(const Task& task, const Options& options) {
     return success;
   }
   const Json report = run(task, options, "");
-  if (!options.is_quiet) list(report);
+  if (!options.is_quiet && !writes_to_standard_output(task.files)) list(report);
   return success;
 }
 

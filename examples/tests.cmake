@@ -141,7 +141,9 @@ collection_test(segment_mesh sh
   sh -c "mkdir -p outputs && segment_mesh meshes/*.off --quiet --labels outputs/%.seg --resume")
 
 # The tool's own tests run the tool.
-if(TARGET test_segment_mesh_tool AND TARGET segment_mesh)
-  add_dependencies(test_segment_mesh_tool segment_mesh)
-  target_compile_definitions(test_segment_mesh_tool PRIVATE SEGMENT_MESH="$<TARGET_FILE:segment_mesh>")
-endif()
+foreach(test test_segment_mesh_tool test_segment_mesh_input)
+  if(TARGET ${test} AND TARGET segment_mesh)
+    add_dependencies(${test} segment_mesh)
+    target_compile_definitions(${test} PRIVATE SEGMENT_MESH="$<TARGET_FILE:segment_mesh>")
+  endif()
+endforeach()

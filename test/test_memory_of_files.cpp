@@ -94,6 +94,10 @@ TEST(Memory_of_files, IsAMultipleOfTheFileWhateverItPromises) {
       {"text.ply", ply("ascii", n, n, repeated("0 0 0\n", n) + repeated("0\n", n))},
       {"vertices.ply", ply("binary_little_endian", n, 0, std::string(3 * n, '\0'))},
       {"faces.ply", ply("binary_big_endian", 0, n, std::string(n, '\0'))},
+      {"strips.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
+       "property char z\nelement tristrips 1\nproperty list int uchar vertex_indices\nend_header\n" +
+           std::string(9, '\0') + std::string("\xe0\x93\x04\0", 4) + repeated(std::string("\0\1\2", 3), n)},
       {"text.stl",
        "solid\n" + repeated("facet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n", n) + "endsolid\n"},
       // As many as there is room for, and none there are.

@@ -10,6 +10,8 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 
 #else
 
+#include "segment_mesh_tool.h"
+
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
@@ -42,164 +44,7 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 
 namespace {
 
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::size_t number_of_lines(const std::string& text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-struct Result {
-  int exit_code;
-  std::string output, errors;
-};
-
-/// A folder of its own for each test, and the tool to be run in it.
-class Segment_mesh_tool : public testing::Test {
- protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-  }
-
-  /// The names of the files in the folder and their contents.
-  std::map<std::string, std::string> files() const {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
-      if (entry.is_regular_file()) result[entry.path().filename().string()] = content_of(entry.path().string());
-    return result;
-  }
-
-  /// Starts the tool in the folder; standard output and errors go to two files elsewhere.
-  /// \param prepare is called in the new process
-  pid_t start(
-      const std::vector<std::string>& arguments, void (*prepare)() = [] {}) const {
-    const pid_t process = fork();
-    if (process == 0) {
-      prepare();
-      std::filesystem::current_path(folder_);
-      if (!std::freopen(output_.c_str(), "w", stdout) || !std::freopen(errors_.c_str(), "w", stderr)) _exit(99);
-      std::vector<char*> pointers = {const_cast<char*>("segment_mesh")};
-      for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
-      pointers.push_back(nullptr);
-      execv(SEGMENT_MESH, pointers.data());
-      _exit(99);
-    }
-    return process;
-  }
-
-  Result wait(pid_t process) const {
-    int status = 0;
-    waitpid(process, &status, 0);
-    Result result = {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content_of(output_),
-                     content_of(errors_)};
-    std::filesystem::remove(output_);
-    std::filesystem::remove(errors_);
-    return result;
-  }
-
-  Result run(const std::vector<std::string>& arguments) const { return wait(start(arguments)); }
-
-  /// Runs the tool, which must fail with the code and one line that has the text in it, and change no file.
-  void expect_failure(
-      int exit_code, const std::string& text, const std::vector<std::string>& arguments,
-      void (*prepare)() = [] {}) const {
-    const auto before = files();
-    const Result result = wait(start(arguments, prepare));
-    const std::string shown = testing::PrintToString(arguments) + "\n" + result.errors;
-    EXPECT_EQ(result.exit_code, exit_code) << shown;
-    EXPECT_NE(result.errors.find(text), std::string::npos) << shown << "does not say " << text;
-    EXPECT_EQ(number_of_lines(result.errors), 1U) << shown;
-    EXPECT_EQ(result.output, "") << shown;
-    EXPECT_EQ(files(), before) << shown;
-  }
-
-  std::vector<std::size_t> labels(const std::string& name) const {
-    std::ifstream file(path(name));
-    return {std::istream_iterator<std::size_t>(file), {}};
-  }
-
- private:
-  const std::string number_ = std::to_string(std::random_device()());
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rw_tool_" + number_);
-  const std::string output_ = folder_.string() + ".out", errors_ = folder_.string() + ".err";
-};
-
-/// A cube with sides at 0 and 1, in the order z = 0, z = 1, y = 0, x = 1, y = 1, x = 0, each of n by n squares. The
-/// corners are written as many times as there are squares: nothing is shared.
-std::string cube_of_separate_squares(int n) {
-  std::ostringstream points, faces;
-  const std::vector<std::function<std::array<double, 3>(double, double)>> sides = {
-      [](double u, double v) {
-        return std::array<double, 3>{v, u, 0};
-      },
-      [](double u, double v) {
-        return std::array<double, 3>{u, v, 1};
-      },
-      [](double u, double v) {
-        return std::array<double, 3>{u, 0, v};
-      },
-      [](double u, double v) {
-        return std::array<double, 3>{1, u, v};
-      },
-      [](double u, double v) {
-        return std::array<double, 3>{v, 1, u};
-      },
-      [](double u, double v) {
-        return std::array<double, 3>{0, v, u};
-      }};
-  int number = 0;
-  for (const auto& side : sides)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        for (const auto& [u, v] : {std::pair(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
-          const auto p = side(double(u) / n, double(v) / n);
-          points << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-        }
-        faces << "4 " << number << ' ' << number + 1 << ' ' << number + 2 << ' ' << number + 3 << '\n';
-        number += 4;
-      }
-  return "OFF\n" + std::to_string(number) + " " + std::to_string(number / 4) + " 0\n" + points.str() + faces.str();
-}
-
-/// The square of n by n unit squares.
-std::string grid(int n) {
-  std::ostringstream file;
-  file << "OFF\n" << (n + 1) * (n + 1) << ' ' << n * n << " 0\n";
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) file << x << ' ' << y << ' ' << x * y % 2 << '\n';
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const int a = y * (n + 1) + x;
-      file << "4 " << a << ' ' << a + 1 << ' ' << a + n + 2 << ' ' << a + n + 1 << '\n';
-    }
-  return file.str();
-}
-
-/// An open strip of 2 n triangles along x, a square each 0 <= x < n.
-std::string strip(int n) {
-  std::ostringstream file;
-  file << "OFF\n" << 2 * (n + 1) << ' ' << 2 * n << " 0\n";
-  for (int x = 0; x <= n; ++x) file << x << " 0 0\n" << x << " 1 0\n";
-  for (int x = 0; x < n; ++x)
-    file << "3 " << 2 * x << ' ' << 2 * x + 2 << ' ' << 2 * x + 3 << "\n3 " << 2 * x << ' ' << 2 * x + 3 << ' '
-         << 2 * x + 1 << '\n';
-  return file.str();
-}
-
-const std::vector<std::string> six_sides = {"--seed", "0.4,0.4,0", "--seed", "0.4,0.4,1", "--seed", "0.4,0,0.4",
-                                            "--seed", "1,0.4,0.4", "--seed", "0.4,1,0.4", "--seed", "0,0.4,0.4"};
-
-std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
+using namespace segment_mesh_tool;
 
 // ---- What it writes ----
 
@@ -317,14 +162,6 @@ TEST_F(Segment_mesh_tool, WhatIsOddButNotWrongIsSaid) {
   EXPECT_NE(result.errors.find("1 component without a seed"), std::string::npos) << result.errors;
   EXPECT_EQ(labels("odd.seg"), (std::vector<std::size_t>{0, 0, 0, 1}));
   EXPECT_EQ(run({"odd.off", "--seed", "0", "--quiet"}).errors, "");
-}
-
-TEST_F(Segment_mesh_tool, AMeshWithoutFacesHasNoSegments) {
-  write("empty.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
-  const Result result = run({"empty.off", "--labels", "e.seg", "-o", "e.ply", "--report", "e.json"});
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(content_of(path("e.seg")), "");
-  EXPECT_TRUE(nlohmann::json::parse(content_of(path("e.json")))["segments"].empty());
 }
 
 TEST_F(Segment_mesh_tool, AMeshInsideOutGivesTheSameSegmentsUnlessItIsKept) {
@@ -627,7 +464,7 @@ TEST_F(Segment_mesh_tool, ComponentsAreNeverJoined) {
   write("two.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n");
   ASSERT_EQ(run({"two.off", "--labels", "two.seg"}).exit_code, 0);
   EXPECT_EQ(labels("two.seg"), (std::vector<std::size_t>{0, 1}));
-  expect_failure(3, "the number of segments is 1, but must be from 2", {"two.off", "--segments", "1"});
+  expect_failure(3, "--segments is 1, but must be from 2", {"two.off", "--segments", "1"});
 }
 
 TEST_F(Segment_mesh_tool, AMeshOfOneFaceIsOneSegment) {
@@ -846,7 +683,7 @@ TEST_F(Segment_mesh_tool, NoSegmentLiesOnBothSidesOfAClosedLoopOfWalls) {
     EXPECT_TRUE(both.empty()) << shown;
     EXPECT_EQ(nlohmann::json::parse(content_of(path("c.json")))["walls"], 4 * n) << shown;
   }
-  expect_failure(3, "the number of segments is 1, but must be from 2",
+  expect_failure(3, "--segments is 1, but must be from 2",
                  {"cube.off", "--constraints", "belt.txt", "--segments", "1", "--quiet"});
 }
 
@@ -1143,7 +980,7 @@ TEST_F(Segment_mesh_tool, WrongUsageIsCodeOne) {
   expect_failure(1, "--probabilities", {"strip.off", "--probabilities", "p.txt"});
   expect_failure(1, "--hierarchy", {"strip.off", "--seed", "1", "--hierarchy", "h.json"});
   expect_failure(1, "--page", {"strip.off", "--page", "page.html"});
-  expect_failure(1, "out.stl is neither .ply nor .off nor .obj", {"strip.off", "--seed", "0", "-o", "out.stl"});
+  expect_failure(1, "out.xyz is none of .ply, .off, .obj, ", {"strip.off", "--seed", "0", "-o", "out.xyz"});
   expect_failure(1, "strip.off is an input or another output", {"strip.off", "--seed", "0", "-o", "./strip.off"});
   expect_failure(1, "a.off is an input or another output",
                  {"strip.off", "--seed", "0", "-o", "a.off", "--labels", "a.off"});
@@ -1183,14 +1020,14 @@ TEST_F(Segment_mesh_tool, AnArgumentOutOfRangeIsCodeThree) {
   expect("strip.off: seed 6: the file has 6 faces, the first is face 0", {"--seed", "6"});
   expect("seed 18446744073709551615: the file has 6 faces", {"--seed", "18446744073709551615"});
   expect("seed 2=1: another seed gives the same face the label 0", {"--seed", "2=0", "--seed", "2=1"});
-  expect("the number of segments is 0, but must be from 1", {"--segments", "0"});
-  expect("the number of segments is 7, but must be from 1", {"--segments", "7"});
-  expect("seeds is 0", {"--seeds", "0"});
-  for (const char* sigma : {"0", "-1", "nan", "inf"}) expect("sigma is ", {"--seed", "0", "--sigma", sigma});
-  for (const char* cap : {"0", "-1", "nan"}) expect("cap is ", {"--seed", "0", "--cap", cap});
+  expect("--segments is '0', but must be a whole number from 1", {"--segments", "0"});
+  expect("strip.off: --segments is 7, but must be from 1", {"--segments", "7"});
+  expect("--seeds is '0', but must be a whole number from 1", {"--seeds", "0"});
+  for (const char* sigma : {"0", "-1", "nan", "inf"}) expect("--sigma is ", {"--seed", "0", "--sigma", sigma});
+  for (const char* cap : {"0", "-1", "nan"}) expect("--cap is ", {"--seed", "0", "--cap", cap});
   for (const char* weight : {"-0.1", "1.1", "nan"})
-    expect("convex_weight is ", {"--seed", "0", "--convex-weight", weight});
-  for (const char* radius : {"-1", "nan", "inf"}) expect("radius is ", {"--seed", "0", "--smoothing", radius});
+    expect("--convex-weight is ", {"--seed", "0", "--convex-weight", weight});
+  for (const char* radius : {"-1", "nan", "inf"}) expect("--smoothing is ", {"--seed", "0", "--smoothing", radius});
 }
 
 TEST_F(Segment_mesh_tool, AnOutputThatCannotBeWrittenIsCodeFive) {

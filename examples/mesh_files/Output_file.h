@@ -3,12 +3,17 @@
 #ifndef MESH_FILES_OUTPUT_FILE_H
 #define MESH_FILES_OUTPUT_FILE_H
 
+#include "Partial_files.h"
 #include "Polygon_soup.h"
+#include "Text.h"
+
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
@@ -17,14 +22,28 @@
 
 namespace mesh_files {
 
+/// The number of an open file that a path stands for, such as 1 for /dev/stdout.
+inline std::optional<int> open_file_of(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
+    if (path.compare(0, folder.size(), folder) == 0) return number_in<int>(path.substr(folder.size()));
+  return std::nullopt;
+}
+
 /// A file that appears whole or not at all: it is written under a temporary name in its own folder and gets its name
 /// by `commit()`. Without that, nothing remains. What is there and no file, such as a pipe or a device, is written to as
-/// it is; a link stays a link.
+/// it is, and so are files that are open already, such as /dev/stdout; a link stays a link.
 class Output_file {
  public:
   /// \throws Unwritable_file if the file cannot be created
   explicit Output_file(std::string path) : path_(std::move(path)) {
     std::error_code ignored;
+    if (const std::optional<int> open = open_file_of(path_)) {
+      file_ = ::fdopen(::dup(*open), "wb");
+      if (!file_) fail();
+      return;
+    }
     if (std::filesystem::is_directory(path_, ignored)) throw Unwritable_file(path_ + ": this is a folder");
     if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
       file_ = std::fopen(path_.c_str(), "wb");
@@ -37,6 +56,7 @@ class Output_file {
     do temporary_path_ = target_ + ".part" + std::to_string(std::random_device()());
     while (!(file_ = std::fopen(temporary_path_.c_str(), "wbx")) && errno == EEXIST);
     if (!file_) fail();
+    entry_ = Partial_files::add(temporary_path_);
   }
 
   Output_file(const Output_file&) = delete;
@@ -45,6 +65,7 @@ class Output_file {
   ~Output_file() {
     if (file_) std::fclose(file_);
     if (!temporary_path_.empty()) std::remove(temporary_path_.c_str());
+    if (entry_) Partial_files::forget(entry_);
   }
 
   const std::string& path() const { return path_; }
@@ -73,6 +94,7 @@ class Output_file {
 
   std::string path_, target_;
   std::string temporary_path_;  // empty if there is none
+  Partial_files::Entry* entry_ = nullptr;
   std::FILE* file_ = nullptr;
 };
 
@@ -85,6 +107,7 @@ class Output_folder {
     is_new_ = std::filesystem::create_directory(path_, error);
     if (error) throw Unwritable_file(path_ + ": " + error.message());
     if (!std::filesystem::is_empty(path_, error)) throw Unwritable_file(path_ + ": the folder is not empty");
+    if (is_new_) entry_ = Partial_files::add(path_);
   }
 
   Output_folder(const Output_folder&) = delete;
@@ -93,6 +116,7 @@ class Output_folder {
   ~Output_folder() {
     std::error_code ignored;
     if (is_new_) std::filesystem::remove(path_, ignored);
+    if (entry_) Partial_files::forget(entry_);
   }
 
   void keep() { is_new_ = false; }
@@ -100,6 +124,7 @@ class Output_folder {
  private:
   std::string path_;
   bool is_new_ = false;
+  Partial_files::Entry* entry_ = nullptr;
 };
 
 }  // namespace mesh_files

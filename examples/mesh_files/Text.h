@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,7 +75,7 @@ std::optional<Number> number_in(std::string_view word) {
 
 /// A text read line by line and word by word, which knows its place when something is wrong.
 ///
-/// Lines end with LF, CR LF or CR. Blank lines and what follows a `#` are passed over.
+/// Lines end with LF, CR LF or CR, whichever comes. Blank lines and what follows a `#` are passed over.
 class Text {
  public:
   /// What a backslash at the end of a line means.
@@ -83,7 +84,7 @@ class Text {
   Text(std::string path, std::string_view content, Backslash backslash = Backslash::is_a_character)
       : path_(std::move(path)),
         rest_(content),
-        newline_(content.find('\n') == std::string_view::npos ? '\r' : '\n'),
+        ends_with_carriage_return_(starts_with_carriage_return(content.substr(end_of_line()))),
         joins_lines_(backslash == Backslash::joins_lines) {}
 
   /// Goes to the next line that has a word in it; false at the end of the text.
@@ -111,6 +112,14 @@ class Text {
 
   bool at_end_of_line() const { return line_.empty(); }
 
+  /// What is left of the line.
+  std::string_view rest_of_line() const { return line_; }
+
+  void skip_line() { line_ = {}; }
+
+  /// Goes to the next word, which may be on a later line; false at the end of the text.
+  bool next_word() { return !at_end_of_line() || next_line(); }
+
   /// The next word of the line, empty at its end.
   std::string_view word() {
     const std::size_t size = std::min(line_.find_first_of(blanks), line_.size());
@@ -131,6 +140,13 @@ class Text {
     const std::int64_t value = integer(what);
     if (value < 0) fail(std::string(what) + " is negative: " + std::to_string(value));
     return static_cast<std::uint64_t>(value);
+  }
+
+  /// The next word as a number that is finite.
+  double coordinate(const char* what) {
+    const double value = number(what);
+    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
+    return value;
   }
 
   /// The next three words as a point.
@@ -157,10 +173,32 @@ class Text {
  private:
   static constexpr std::string_view blanks = " \t\r\n\v\f\\";
 
+  /// Whether it starts with a CR that is a line end by itself.
+  static bool starts_with_carriage_return(std::string_view text) {
+    return !text.empty() && text[0] == '\r' && text.substr(1, 1) != "\n";
+  }
+
+  /// Where the line ends that `rest_` begins with. Each kind of line end is looked for once in the whole text, however
+  /// far away the next one is.
+  std::size_t end_of_line() {
+    const char* const begin = rest_.data();
+    const char* const end = begin + rest_.size();
+    const auto next = [&](const char*& known, char wanted) {
+      if (known >= begin || begin == end) return;
+      const void* const found = std::memchr(begin, wanted, rest_.size());
+      known = found ? static_cast<const char*>(found) : end;
+    };
+    next(next_line_feed_, '\n');
+    next(next_carriage_return_, '\r');
+    return begin == end ? 0 : static_cast<std::size_t>(std::min(next_line_feed_, next_carriage_return_) - begin);
+  }
+
   std::string_view take_line() {
-    const std::size_t size = std::min(rest_.find(newline_), rest_.size());
+    const std::size_t size = end_of_line();
     const std::string_view line = rest_.substr(0, size);
-    rest_.remove_prefix(std::min(size + 1, rest_.size()));
+    // After a header whose lines end with CR, binary data may begin with the byte LF.
+    const bool is_pair = !ends_with_carriage_return_ && rest_.substr(size, 2) == "\r\n";
+    rest_.remove_prefix(std::min(size + (is_pair ? 2 : 1), rest_.size()));
     return line;
   }
 
@@ -181,16 +219,13 @@ class Text {
     return *value;
   }
 
-  double coordinate(const char* what) {
-    const double value = number(what);
-    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
-    return value;
-  }
-
   std::string path_;
   std::string_view rest_;
   std::string_view line_;
-  char newline_;
+  const char* next_line_feed_ =
+      nullptr;  // the first one in the rest, or the end of the text; known since it was needed
+  const char* next_carriage_return_ = nullptr;
+  bool ends_with_carriage_return_;  // the first line
   bool joins_lines_;
   std::size_t number_of_line_ = 0;
   std::size_t lines_taken_ = 1;

@@ -4,21 +4,23 @@
 #define MESH_FILES_READ_MESH_H
 
 #include "Polygon_soup.h"
+#include "Text.h"
+#include "read_content.h"
 #include "read_obj.h"
 #include "read_off.h"
 #include "read_ply.h"
 #include "read_stl.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mesh_files {
 
@@ -29,61 +31,94 @@ inline std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// All bytes of a file.
-inline std::string read_content(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Unreadable_file(path + ": this is a folder");
-  const auto fail = [&] { return Unreadable_file(path + ": " + std::strerror(errno)); };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw fail();
-  // The size of a pipe is not known; that of a file spares copies.
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  constexpr std::size_t smallest_block = 1 << 16;
-  std::string content(ignored ? smallest_block : static_cast<std::size_t>(size) + 1, '\0');
-  std::size_t read = 0;
-  for (;;) {
-    read += std::fread(content.data() + read, 1, content.size() - read, file.get());
-    if (read < content.size()) break;
-    content.resize(2 * content.size());
-  }
-  if (std::ferror(file.get())) throw fail();
-  content.resize(read);
-  return content;
+/// The formats that are read.
+enum class Format { off, ply, obj, stl };
+
+/// What files of a format end with, without the dot.
+inline const std::array<std::pair<const char*, Format>, 4> format_names = {
+    {{"off", Format::off}, {"ply", Format::ply}, {"obj", Format::obj}, {"stl", Format::stl}}};
+
+/// The format that a path names, before ".gz" if that is there.
+inline std::optional<Format> format_of_path(const std::string& path) {
+  std::string extension = extension_of(path);
+  if (extension == ".gz") extension = extension_of(std::filesystem::path(path).stem().string());
+  for (const auto& [name, format] : format_names)
+    if (extension == std::string(".") + name) return format;
+  return std::nullopt;
 }
 
-/// The mesh in an OFF, PLY, OBJ or STL file. The content decides which it is; the extension does where the content has
-/// no mark of its own, as in OBJ files.
+/// The format whose mark a content has.
+inline std::optional<Format> format_of_content(std::string_view content) {
+  Text text("", content.substr(0, 1 << 16));
+  if (!text.next_line()) return std::nullopt;
+  const std::string_view word = text.word();
+  if (word == "ply") return Format::ply;
+  if (is_word(word, "solid")) return Format::stl;
+  const bool is_off = off::mark_of(word.substr(0, word.find_last_not_of("0123456789") + 1)).is_off;
+  return is_off ? std::optional(Format::off) : std::nullopt;
+}
+
+/// Whether a text begins as OBJ files do, which have no mark.
+inline bool may_be_obj(std::string_view content) {
+  Text text("", content.substr(0, 1 << 16));
+  if (!text.next_line()) return false;
+  const std::string_view word = text.word();
+  for (const char* keyword : {"v", "vn", "vt", "f", "g", "o", "s", "mtllib", "usemtl"})
+    if (word == keyword) return true;
+  return false;
+}
+
+/// The mesh in a file that is not packed, see `mesh_of_content()`.
+inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view content,
+                                     const std::optional<Format>& given) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (content.substr(0, byte_order_mark.size()) == byte_order_mark) content.remove_prefix(byte_order_mark.size());
+  const std::size_t blanks = std::min(content.find_first_not_of(" \t\r\n\v\f"), content.size());
+  if (blanks == content.size()) throw Unreadable_file(path + ": the file is empty");
+  if (stl::is_binary(content)) return read_stl(path, content);
+  refuse_other_content(path, content.substr(blanks));
+
+  // A mark tells more than a name.
+  const std::optional<Format> marked = format_of_content(content);
+  std::optional<Format> format = given ? given : marked ? marked : format_of_path(path);
+  if (!format && may_be_obj(content)) format = Format::obj;
+  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ or STL file");
+  switch (*format) {
+    case Format::off:
+      return read_off(path, content);
+    case Format::obj:
+      return read_obj(path, content);
+    case Format::stl:
+      return read_stl(path, content);
+    case Format::ply:
+      break;
+  }
+  if (marked != Format::ply) throw Unreadable_file(path + ": a PLY file starts with \"ply\", this one does not");
+  return read_ply(path, content);
+}
+
+/// The mesh in an OFF, PLY, OBJ or STL file, which may be packed by gzip. The content decides which it is; the extension
+/// does where the content has no mark of its own, as in OBJ files. Byte order marks and blanks at the beginning are
+/// passed over.
 /// \param path for the extension and messages; nothing is read from there
+/// \param format in place of the one that the path names
 /// \throws Unreadable_file if the content is broken, or promises more than it holds
-inline Polygon_soup mesh_of_content(const std::string& path, const std::string& content) {
-  const std::string extension = extension_of(path);
-  if (std::all_of(content.begin(), content.end(), [](unsigned char c) { return std::isspace(c); }))
-    throw Unreadable_file(path + ": the file is empty");
-  const auto starts_with = [&](std::string_view mark) { return content.compare(0, mark.size(), mark) == 0; };
-
-  Polygon_soup soup;
-  if (starts_with("ply") && content.size() > 3 && std::isspace(static_cast<unsigned char>(content[3])))
-    soup = read_ply(path, content);
-  else if (extension == ".stl" || starts_with("solid ") || stl::is_binary(content))
-    soup = read_stl(path, content);
-  else if (extension == ".obj")
-    soup = read_obj(path, content);
-  else if (extension == ".off" || content.substr(0, content.find_first_of(" \t\r\n")).find("OFF") != std::string::npos)
-    soup = read_off(path, content);
-  else if (extension == ".ply")
-    throw Unreadable_file(path + ": a PLY file starts with \"ply\", this one does not");
-  else
-    throw Unreadable_file(path + ": this is no OFF, PLY, OBJ or STL file");
-
+inline Polygon_soup mesh_of_content(const std::string& path, const std::string& content,
+                                    const std::optional<Format>& format = std::nullopt) {
+  Polygon_soup soup = is_gzip(content) && !stl::is_binary(content)
+                          ? mesh_of_unpacked(path, unpacked(path, content), format)
+                          : mesh_of_unpacked(path, content, format);
   constexpr std::size_t limit = std::numeric_limits<Polygon_soup::Index>::max() / 2;
   if (soup.points.size() > limit || soup.corners.size() > limit)
     throw Unreadable_file(path + ": more vertices or corners of faces than 32 bits can number");
   return soup;
 }
 
-/// Reads an OFF, PLY, OBJ or STL file, see `mesh_of_content()`.
+/// Reads an OFF, PLY, OBJ or STL file, or standard input for "-", see `mesh_of_content()`.
 /// \throws Unreadable_file if there is no such file, too
-inline Polygon_soup read_mesh(const std::string& path) { return mesh_of_content(path, read_content(path)); }
+inline Polygon_soup read_mesh(const std::string& path, const std::optional<Format>& format = std::nullopt) {
+  return mesh_of_content(path, read_content(path), format);
+}
 
 }  // namespace mesh_files
 

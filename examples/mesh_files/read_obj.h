@@ -27,7 +27,7 @@ inline Polygon_soup read_obj(const std::string& path, std::string_view content) 
     const std::string_view keyword = text.word();
     if (keyword == "v") {
       soup.points.push_back(text.point());
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "fo") {  // the latter in files of the first years
       while (!text.at_end_of_line()) {
         // "7", "7/2", "7/2/5" or "7//5": vertex, texture, normal. Negative numbers count back from the last.
         const std::string_view corner = text.word();

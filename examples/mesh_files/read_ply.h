@@ -21,15 +21,15 @@
 namespace mesh_files {
 namespace ply {
 
-enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class Scalar { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 inline std::size_t size_of(Scalar type) {
-  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::array<std::size_t, 10> sizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return sizes[static_cast<std::size_t>(type)];
 }
 
 /// What a property means to us.
-enum class Meaning { x, y, z, corners, other };
+enum class Meaning { x, y, z, corners, strips, other };
 
 struct Property {
   std::string name;
@@ -53,14 +53,16 @@ struct Header {
 };
 
 inline Scalar scalar_type(Text& text) {
-  constexpr std::array<std::array<const char*, 2>, 8> names = {{{"char", "int8"},
-                                                                {"uchar", "uint8"},
-                                                                {"short", "int16"},
-                                                                {"ushort", "uint16"},
-                                                                {"int", "int32"},
-                                                                {"uint", "uint32"},
-                                                                {"float", "float32"},
-                                                                {"double", "float64"}}};
+  constexpr std::array<std::array<const char*, 2>, 10> names = {{{"char", "int8"},
+                                                                 {"uchar", "uint8"},
+                                                                 {"short", "int16"},
+                                                                 {"ushort", "uint16"},
+                                                                 {"int", "int32"},
+                                                                 {"uint", "uint32"},
+                                                                 {"long", "int64"},
+                                                                 {"ulong", "uint64"},
+                                                                 {"float", "float32"},
+                                                                 {"double", "float64"}}};
   const std::string_view word = text.word();
   for (std::size_t i = 0; i < names.size(); ++i)
     if (word == names[i][0] || word == names[i][1]) return static_cast<Scalar>(i);
@@ -73,9 +75,10 @@ inline Meaning meaning_of(const Element& element, const Property& property) {
     if (property.name == "y") return Meaning::y;
     if (property.name == "z") return Meaning::z;
   }
-  if (element.name == "face" && property.is_list &&
-      (property.name == "vertex_indices" || property.name == "vertex_index"))
-    return Meaning::corners;
+  if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
+    if (element.name == "face") return Meaning::corners;
+    if (element.name == "tristrips") return Meaning::strips;
+  }
   return Meaning::other;
 }
 
@@ -93,7 +96,8 @@ inline Property read_property(Text& text, const Element& element) {
   return property;
 }
 
-/// Reads the header up to and with the line "end_header".
+/// Reads the header up to and with the line "end_header". Lines that PLY does not know count as comments, as in the
+/// files of programs that sign their work.
 inline Header read_header(Text& text) {
   Header header;
   bool has_format = false;
@@ -126,18 +130,17 @@ inline Header read_header(Text& text) {
         if (other.meaning == property.meaning && property.meaning != Meaning::other)
           text.fail("a second property " + printable(property.name));
       element.properties.push_back(property);
-    } else if (keyword != "comment" && keyword != "obj_info") {
-      text.fail("no line of a PLY header starts with " + printable(keyword));
     }
   }
   if (!has_format) text.fail("the header has no line \"format\"");
   return header;
 }
 
-inline const Element& element_called(const std::string& name, const Header& header, const Text& text) {
+/// The element of a name, null if there is none.
+inline const Element* element_called(const std::string& name, const Header& header) {
   for (const Element& element : header.elements)
-    if (element.name == name) return element;
-  text.fail("the header has no element \"" + name + "\"");
+    if (element.name == name) return &element;
+  return nullptr;
 }
 
 inline void require(Meaning meaning, const char* name, const Element& element, const Text& text) {
@@ -148,12 +151,16 @@ inline void require(Meaning meaning, const char* name, const Element& element, c
 
 /// Refuses a header without what a mesh needs, or that promises more than the file has room for.
 inline void check_header(const Header& header, const Text& text) {
-  const Element& vertices = element_called("vertex", header, text);
-  require(Meaning::x, "x", vertices, text);
-  require(Meaning::y, "y", vertices, text);
-  require(Meaning::z, "z", vertices, text);
-  const Element& faces = element_called("face", header, text);
-  if (faces.number > 0) require(Meaning::corners, "vertex_indices", faces, text);
+  const Element* const vertices = element_called("vertex", header);
+  if (!vertices) text.fail("the header has no element \"vertex\"");
+  require(Meaning::x, "x", *vertices, text);
+  require(Meaning::y, "y", *vertices, text);
+  require(Meaning::z, "z", *vertices, text);
+  const Element* const faces = element_called("face", header);
+  const Element* const strips = element_called("tristrips", header);
+  if (!faces && !strips) text.fail("the header has no element \"face\"");
+  if (faces && faces->number > 0) require(Meaning::corners, "vertex_indices", *faces, text);
+  if (strips && strips->number > 0) require(Meaning::strips, "vertex_indices", *strips, text);
   for (const Element& element : header.elements) {
     std::size_t smallest_size = 0;
     for (const Property& property : element.properties)
@@ -211,6 +218,10 @@ class Binary_values {
         return load<std::int32_t>(bytes);
       case Scalar::uint32:
         return load<std::uint32_t>(bytes);
+      case Scalar::int64:
+        return load<std::int64_t>(bytes);
+      case Scalar::uint64:
+        return load<std::uint64_t>(bytes);
       case Scalar::float32:
         return load<float>(bytes);
       case Scalar::float64:
@@ -236,30 +247,79 @@ class Binary_values {
 };
 
 template <class Values>
-std::uint64_t whole_number(double value, Values& values, const char* what) {
+std::uint64_t whole_number(double value, const Values& values, const char* what) {
   if (!(value >= 0 && value <= double(std::numeric_limits<std::uint32_t>::max()) && value == std::floor(value)))
     values.fail(std::string(what) + " is " + std::to_string(value));
   return static_cast<std::uint64_t>(value);
 }
 
+/// Strips of triangles: each corner after the second makes a triangle with the two before it.
+class Strips {
+ public:
+  void add(Polygon_soup::Index corner) { corners_.push_back(corner); }
+  void end_strip() { add(end); }
+
+  /// Adds the triangles, in the order of the strips. Those with a corner twice only lead on to the next ones.
+  void append_to(Polygon_soup& soup) const {
+    std::size_t triangles = 0;
+    for_each_triangle([&](auto, auto, auto) { ++triangles; });
+    soup.corners.reserve(soup.corners.size() + 3 * triangles);
+    soup.first_corner.reserve(soup.first_corner.size() + triangles);
+    for_each_triangle([&](Polygon_soup::Index a, Polygon_soup::Index b, Polygon_soup::Index c) {
+      soup.corners.insert(soup.corners.end(), {a, b, c});
+      soup.end_face();
+    });
+  }
+
+ private:
+  static constexpr Polygon_soup::Index end = std::numeric_limits<Polygon_soup::Index>::max();
+
+  template <class Function>
+  void for_each_triangle(const Function& function) const {
+    std::size_t begin = 0;  // of the strip
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      if (corners_[i] == end) begin = i + 1;
+      if (i < begin + 2) continue;
+      const bool is_turned = (i - begin) % 2 == 1;
+      const auto a = corners_[i - 2 + is_turned], b = corners_[i - 1 - is_turned], c = corners_[i];
+      if (a != b && b != c && c != a) function(a, b, c);
+    }
+  }
+
+  std::vector<Polygon_soup::Index> corners_;  // of all strips, with `end` after each
+};
+
+/// The number of a vertex that a face has for a corner.
 template <class Values>
-void read_list(const Property& property, std::uint64_t number_of_vertices, Values& values, Polygon_soup& soup) {
+Polygon_soup::Index corner_of(double value, std::uint64_t number_of_vertices, const Values& values) {
+  const std::uint64_t corner = whole_number(value, values, "a corner of the face");
+  if (corner >= number_of_vertices)
+    values.fail("the face names vertex " + std::to_string(corner) + ", the file has " +
+                std::to_string(number_of_vertices) + " (the first is vertex 0)");
+  return static_cast<Polygon_soup::Index>(corner);
+}
+
+template <class Values>
+void read_list(const Property& property, std::uint64_t number_of_vertices, Values& values, Polygon_soup& soup,
+               Strips& strips) {
   const std::uint64_t size = whole_number(values.next(property.type_of_size), values, "the size of a list");
   for (std::uint64_t i = 0; i < size; ++i) {
     const double value = values.next(property.type);
-    if (property.meaning != Meaning::corners) continue;
-    const std::uint64_t corner = whole_number(value, values, "a corner of the face");
-    if (corner >= number_of_vertices)
-      values.fail("the face names vertex " + std::to_string(corner) + ", the file has " +
-                  std::to_string(number_of_vertices) + " (the first is vertex 0)");
-    soup.corners.push_back(static_cast<Polygon_soup::Index>(corner));
+    if (property.meaning == Meaning::corners)
+      soup.corners.push_back(corner_of(value, number_of_vertices, values));
+    else if (property.meaning == Meaning::strips && value == -1)
+      strips.end_strip();
+    else if (property.meaning == Meaning::strips)
+      strips.add(corner_of(value, number_of_vertices, values));
   }
   if (property.meaning == Meaning::corners) soup.end_face();
+  if (property.meaning == Meaning::strips) strips.end_strip();
 }
 
 template <class Values>
 Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertices, Values values) {
   Polygon_soup soup;
+  Strips strips;
   for (const Element& element : header.elements) {
     if (element.properties.empty()) continue;
     if (element.name == "vertex") soup.points.reserve(element.number);
@@ -268,7 +328,7 @@ Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertice
       std::array<double, 3> point = {0, 0, 0};
       for (const Property& property : element.properties) {
         if (property.is_list) {
-          read_list(property, number_of_vertices, values, soup);
+          read_list(property, number_of_vertices, values, soup, strips);
           continue;
         }
         const double value = values.next(property.type);
@@ -279,17 +339,18 @@ Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertice
       if (element.name == "vertex") soup.points.emplace_back(point[0], point[1], point[2]);
     }
   }
+  strips.append_to(soup);
   return soup;
 }
 
 }  // namespace ply
 
-/// Reads a PLY file, text or binary. Properties other than the points and the corners of the faces are passed over.
+/// Reads a PLY file, text or binary; strips of triangles come after the faces. Properties other than the points and the corners of the faces are passed over.
 inline Polygon_soup read_ply(const std::string& path, std::string_view content) {
   Text text(path, content);
   const ply::Header header = ply::read_header(text);
   ply::check_header(header, text);
-  const std::uint64_t vertices = ply::element_called("vertex", header, text).number;
+  const std::uint64_t vertices = ply::element_called("vertex", header)->number;
   switch (header.encoding) {
     case ply::Encoding::little_endian:
       return ply::read_elements(header, vertices, ply::Binary_values<boost::endian::order::little>(path, text.rest()));

@@ -11,6 +11,7 @@
 #include <RW_segmentation/version.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,16 +34,40 @@ enum Exit_code {
   cancelled = 130,  // as shells report a program that Ctrl-C ended
 };
 
+/// Whether a pattern stands for another path for each mesh.
+inline bool has_placeholder(std::string pattern) {
+  for (std::size_t at = 0; (at = pattern.find("%%", at)) != std::string::npos;) pattern.erase(at, 2);
+  return pattern.find('%') != std::string::npos || pattern.find("{folder}") != std::string::npos;
+}
+
+/// The formats of meshes that are written.
+enum class Output_format { ply, off, obj, stl, text_stl, glb, three_mf, msh, medit, vtp };
+
+/// What files of a format end with, without the dot; the last one is a choice of `--output-format` only.
+inline const Names<Output_format> output_format_names = {
+    {"ply", Output_format::ply},          {"off", Output_format::off},    {"obj", Output_format::obj},
+    {"stl", Output_format::stl},          {"glb", Output_format::glb},    {"3mf", Output_format::three_mf},
+    {"msh", Output_format::msh},          {"mesh", Output_format::medit}, {"vtp", Output_format::vtp},
+    {"stl-text", Output_format::text_stl}};
+
 /// The files that belong to a mesh. Those not asked for are empty.
 struct Files {
   std::vector<std::string> outputs;
-  std::string seeds, constraints, labels, split, probabilities, hierarchy, boundaries, html, report;
+  std::string seeds, constraints, labels, left_out, split, probabilities, hierarchy, boundaries, html, report;
+};
+
+/// A number given to an option that is none of those it takes. The message names the option.
+class Argument_out_of_range : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
 };
 
 /// What the user asks for. What is not given is left to the library's own numbers.
 struct Options : Choices {
   std::vector<std::string> meshes;
   std::string list;
+  std::optional<mesh_files::Format> format;    ///< of the meshes, whatever their names
+  std::optional<Output_format> output_format;  ///< of outputs whose names tell none
   bool resumes = false;
   Repairs repairs;
 
@@ -51,7 +76,7 @@ struct Options : Choices {
   std::optional<double> constraints_angle;  ///< in degrees
 
   bool is_smooth = false, is_refined = false;
-  Files files;       ///< a `%` in a path stands for the name of the mesh
+  Files files;       ///< patterns of paths, see `path_for()`
   std::string page;  ///< of `files.html`; empty for the one that comes with the tool
   bool has_point_colors = false;
   std::optional<double> seconds;       ///< for each mesh
@@ -67,7 +92,7 @@ struct Options : Choices {
   bool has_several_meshes() const { return meshes.size() > 1 || !list.empty(); }
   /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own.
   std::string journal() const {
-    return has_several_meshes() && files.report.find('%') == std::string::npos ? files.report : std::string();
+    return has_several_meshes() && !has_placeholder(files.report) ? files.report : std::string();
   }
 };
 
@@ -105,8 +130,33 @@ inline void check_method(const Options& options) {
          "--coarse merges nothing: give --seeding coarse in its place");
   refuse(options.merge_cost && !options.merges(), "--merge-cost",
          "nothing is merged: give --segments or --seeds, too, or no seeds");
-  refuse(options.constraints_angle && !(*options.constraints_angle > 0 && *options.constraints_angle < 180),
-         "--constraints-angle", "the angle must be between 0 and 180 degrees");
+}
+
+/// Whether an output has a name that does not tell what it is.
+inline bool tells_no_format(const std::string& path) {
+  return mesh_files::extension_of(path).empty() || mesh_files::open_file_of(path);
+}
+
+/// The format of a coloured mesh that is written.
+/// \throws CLI::ValidationError if neither the path nor an option tells
+inline Output_format format_of_output(const std::string& path, const Options& options) {
+  const std::string extension = mesh_files::extension_of(path);
+  const bool tells_none = tells_no_format(path);
+  if (tells_none && options.output_format) return *options.output_format;
+  if (extension == ".stl" && options.output_format == Output_format::text_stl) return Output_format::text_stl;
+  std::string known;
+  for (const auto& [name, format] : output_format_names) {
+    if (extension == "." + name) return format;
+    if (format != Output_format::text_stl) known += (known.empty() ? "." : ", .") + name;
+  }
+  throw CLI::ValidationError("--output",
+                             path + " is none of " + known + (tells_none ? ": give --output-format, too" : ""));
+}
+
+/// What the files of `--split` end with.
+inline std::string extension_of_parts(const Options& options) {
+  const Output_format format = options.output_format.value_or(Output_format::ply);
+  return "." + name_of(output_format_names, format == Output_format::text_stl ? Output_format::stl : format);
 }
 
 /// Refuses options that do not go together.
@@ -121,13 +171,15 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--smooth", "nothing would show it: give --refine or --boundaries, too");
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
-  if (options.seconds && !(*options.seconds > 0))
-    throw CLI::ValidationError("--time-limit", "the number of seconds must be positive");
-  for (const std::string& path : files.outputs) {
-    const std::string extension = mesh_files::extension_of(path);
-    if (extension != ".ply" && extension != ".off" && extension != ".obj")
-      throw CLI::ValidationError("--output", path + " is neither .ply nor .off nor .obj");
-  }
+  for (const std::string& path : files.outputs) format_of_output(path, options);
+  const bool takes_format =
+      !files.split.empty() || std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
+        return tells_no_format(path) || format_of_output(path, options) == Output_format::text_stl;
+      });
+  if (options.output_format && !takes_format)
+    throw CLI::ValidationError("--output-format", "the name of each --output tells its format: leave it out");
+  if (!files.split.empty() && options.output_format == Output_format::obj)
+    throw CLI::ValidationError("--output-format", "parts of --split are no OBJ files, which need others beside them");
 }
 
 /// How segments are found: as agrees best with people or as in the paper, and otherwise as asked for.

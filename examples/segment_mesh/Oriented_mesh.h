@@ -22,12 +22,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -124,6 +126,48 @@ struct Numbered_face : std::vector<std::size_t> {
   std::size_t number = none;  ///< in the file; none for a part that was split off
 };
 
+/// The parts of a face that touches itself in a corner, each with corners of its own, in the order in which they end. Parts
+/// without three corners are none.
+inline std::vector<Numbered_face> parts_of(const Numbered_face& face) {
+  std::vector<Numbered_face> parts;
+  Numbered_face path;
+  path.number = face.number;
+  std::unordered_map<std::size_t, std::size_t> place;  // of the corners of the path
+  const auto cut = [&](std::size_t begin) {
+    Numbered_face part = path;
+    part.erase(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(begin));
+    if (part.size() > 2) parts.push_back(std::move(part));
+  };
+  for (const std::size_t corner : face) {
+    const auto [found, is_new] = place.emplace(corner, path.size());
+    if (is_new) {
+      path.push_back(corner);
+      continue;
+    }
+    const std::size_t begin = found->second;
+    cut(begin);
+    for (std::size_t i = begin + 1; i < path.size(); ++i) place.erase(path[i]);
+    path.resize(begin + 1);
+  }
+  cut(0);
+  return parts;
+}
+
+/// Takes faces apart that touch themselves, at the end of all faces.
+/// \returns how many
+inline std::size_t split_faces_that_touch_themselves(std::vector<Numbered_face>& faces) {
+  std::size_t split = 0;
+  const std::size_t number_of_faces = faces.size();
+  for (std::size_t f = 0; f < number_of_faces; ++f) {
+    std::vector<Numbered_face> parts = parts_of(faces[f]);
+    if (parts.size() < 2) continue;
+    ++split;
+    faces[f] = std::move(parts[0]);
+    std::move(parts.begin() + 1, parts.end(), std::back_inserter(faces));
+  }
+  return split;
+}
+
 /// Notes what `CGAL::Polygon_mesh_processing::orient_polygon_soup()` meets.
 struct Orientation_notes : CGAL::Polygon_mesh_processing::Default_orientation_visitor {
   struct Notes {
@@ -156,6 +200,9 @@ inline Oriented_mesh mesh_of_soup(const mesh_files::Polygon_soup& soup) {
   const std::size_t merged = PMP::merge_duplicate_points_in_polygon_soup(points, faces);
   if (merged > 0)
     remarks.push_back("merged " + counted(merged, "vertex", "vertices") + " into others with equal coordinates");
+  const std::size_t split = split_faces_that_touch_themselves(faces);
+  if (split > 0)
+    remarks.push_back("split " + counted(split, "face that touches itself", "faces that touch themselves"));
   PMP::repair_polygon_soup(points, faces);
   std::stable_sort(faces.begin(), faces.end(),
                    [](const Numbered_face& a, const Numbered_face& b) { return a.number < b.number; });
@@ -173,16 +220,23 @@ inline Oriented_mesh mesh_of_soup(const mesh_files::Polygon_soup& soup) {
   if (!mesh) throw std::runtime_error("the faces of the file could not be made into a surface");
   result.mesh = std::move(*mesh);
   result.mesh_face.assign(soup.number_of_faces(), Mesh::null_face());
-  for (std::size_t f = 0; f < faces.size(); ++f)
+  for (std::size_t f = faces.size(); f-- > 0;)  // the first part speaks for a face that was split
     if (faces[f].number != Numbered_face::none)
       result.mesh_face[faces[f].number] = Mesh::Face_index(static_cast<Mesh::size_type>(f));
   const auto left_out =
       static_cast<std::size_t>(std::count(result.mesh_face.begin(), result.mesh_face.end(), Mesh::null_face()));
   if (left_out > 0)
     remarks.push_back(counted(left_out, "face") +
-                      " of the file left out of the mesh: without three different corners, " +
-                      "equal to another face, or split because of touching itself");
+                      " of the file left out of the mesh: without three different corners, or equal to another face");
   return result;
+}
+
+/// The numbers of the faces of the file that the mesh lacks.
+inline std::vector<std::size_t> faces_left_out(const Oriented_mesh& input) {
+  std::vector<std::size_t> left_out;
+  for (std::size_t f = 0; f < input.mesh_face.size(); ++f)
+    if (input.mesh_face[f] == Mesh::null_face()) left_out.push_back(f);
+  return left_out;
 }
 
 /// A part of a mesh that hangs together by edges.

@@ -13,6 +13,7 @@
 #include "html_page.h"
 #include "report.h"
 #include "segments.h"
+#include "signals.h"
 
 #include <nlohmann/json.hpp>
 
@@ -77,10 +78,15 @@ class Output_files {
              const Segmentation& result, const std::vector<Segment>& segments) {
     const std::vector<std::size_t> labels = in_file_order(faces, result.label);
     if (!files_.outputs.empty()) write_meshes(soup, labels, segments);
-    if (!files_.labels.empty()) mesh_files::write_labels(file(files_.labels), labels);
+    if (!files_.labels.empty()) write_labels(labels);
     if (!files_.probabilities.empty()) write_probabilities(faces, result);
     if (!files_.hierarchy.empty()) file(files_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
     if (split_) write_parts(soup, labels, segments);
+  }
+
+  /// \param faces the numbers of the faces of the file that the mesh lacks
+  void write_left_out(const std::vector<std::size_t>& faces) {
+    if (!files_.left_out.empty()) mesh_files::write_labels(file(files_.left_out), faces);
   }
 
   void write_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments) {
@@ -95,8 +101,17 @@ class Output_files {
   void commit(const Json& report) {
     if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
     for (mesh_files::Output_file& file : open_) file.flush();
-    for (mesh_files::Output_file& file : open_) file.commit();
+    is_committing = 1;
+    try {
+      for (mesh_files::Output_file& file : open_) file.commit();
+    } catch (...) {
+      is_committing = 0;
+      throw;
+    }
     if (split_) split_->keep();
+    open_.clear();
+    split_.reset();
+    is_committing = 0;
   }
 
  private:
@@ -106,58 +121,90 @@ class Output_files {
     return *std::find_if(open_.begin(), open_.end(), [&](const auto& file) { return file.path() == path; });
   }
 
-  /// The colours of faces as the files are to have them.
-  mesh_files::Colors colors_of(const mesh_files::Polygon_soup& soup,
-                               const std::vector<mesh_files::Color>& face_colors) const {
-    return options_.has_point_colors ? mesh_files::colors_of_points(soup, face_colors)
-                                     : mesh_files::colors_of_faces(face_colors);
-  }
-
   void write_meshes(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
                     const std::vector<Segment>& segments) {
     std::map<std::size_t, mesh_files::Color> color_of_label;
     for (const Segment& s : segments) color_of_label[s.label] = s.color;
-    std::vector<mesh_files::Color> face_colors;
-    face_colors.reserve(labels.size());
-    for (const std::size_t label : labels) face_colors.push_back(color_of_label[label]);
-
-    const mesh_files::Polygon_soup apart =
-        options_.has_point_colors ? mesh_files::with_points_apart(soup, labels) : mesh_files::Polygon_soup();
-    const mesh_files::Polygon_soup& written = options_.has_point_colors ? apart : soup;
-    const mesh_files::Colors colors = colors_of(written, face_colors);
     for (const std::string& path : files_.outputs) {
-      const std::string extension = mesh_files::extension_of(path);
-      if (extension == ".ply") {
-        mesh_files::write_ply(file(path), written, colors, labels);
-      } else if (extension == ".off") {
-        mesh_files::write_off(file(path), written, colors);
-      } else {
-        const std::string materials = material_library_of(path);
-        mesh_files::write_obj(file(path), std::filesystem::path(materials).filename().string(), written, colors,
-                              labels);
-        mesh_files::write_materials(file(materials), color_of_label);
-      }
+      const Output_format format = format_of_output(path, options_);
+      write_mesh(file(path), format, {soup, labels, color_of_label});
+      if (format == Output_format::obj) mesh_files::write_materials(file(material_library_of(path)), color_of_label);
     }
   }
 
+  void write_mesh(mesh_files::Output_file& file, Output_format format, const mesh_files::Segmented_soup& mesh) const {
+    switch (format) {
+      case Output_format::stl:
+        return mesh_files::write_binary_stl(file, mesh);
+      case Output_format::text_stl:
+        return mesh_files::write_text_stl(file, mesh);
+      case Output_format::glb:
+        return mesh_files::write_glb(file, mesh);
+      case Output_format::three_mf:
+        return mesh_files::write_3mf(file, mesh);
+      case Output_format::msh:
+        return mesh_files::write_msh(file, mesh);
+      case Output_format::medit:
+        return mesh_files::write_medit(file, mesh);
+      case Output_format::vtp:
+        return mesh_files::write_vtp(file, mesh);
+      case Output_format::ply:
+      case Output_format::off:
+      case Output_format::obj:
+        return write_colors_of_faces_or_points(file, format, mesh);
+    }
+  }
+
+  void write_colors_of_faces_or_points(mesh_files::Output_file& file, Output_format format,
+                                       const mesh_files::Segmented_soup& mesh) const {
+    std::vector<mesh_files::Color> face_colors;
+    face_colors.reserve(mesh.face_labels.size());
+    for (const std::size_t label : mesh.face_labels) face_colors.push_back(mesh.color_of_label.at(label));
+    const mesh_files::Polygon_soup apart = options_.has_point_colors
+                                               ? mesh_files::with_points_apart(mesh.soup, mesh.face_labels)
+                                               : mesh_files::Polygon_soup();
+    const mesh_files::Polygon_soup& written = options_.has_point_colors ? apart : mesh.soup;
+    const mesh_files::Colors colors = options_.has_point_colors ? mesh_files::colors_of_points(written, face_colors)
+                                                                : mesh_files::colors_of_faces(face_colors);
+    if (format == Output_format::ply)
+      mesh_files::write_ply(file, written, colors, mesh.face_labels);
+    else if (format == Output_format::off)
+      mesh_files::write_off(file, written, colors);
+    else
+      mesh_files::write_obj(file, std::filesystem::path(material_library_of(file.path())).filename().string(), written,
+                            colors, mesh.face_labels);
+  }
+
   void write_probabilities(const std::vector<Mesh::Face_index>& faces, const Segmentation& result) {
-    std::vector<std::string> names;
-    for (const std::size_t label : result.seed_labels) names.push_back(std::to_string(label));
     std::vector<std::vector<double>> columns;
     for (const auto& probability : result.probabilities) columns.push_back(in_file_order(faces, probability));
-    mesh_files::write_columns(file(files_.probabilities), names, columns);
+    mesh_files::Output_file& out = file(files_.probabilities);
+    const std::string extension = mesh_files::extension_of(files_.probabilities);
+    if (extension == ".npz") return mesh_files::write_probabilities_npz(out, result.seed_labels, columns);
+    if (extension == ".csv") return mesh_files::write_probabilities_csv(out, result.seed_labels, columns);
+    std::vector<std::string> names;
+    for (const std::size_t label : result.seed_labels) names.push_back(std::to_string(label));
+    mesh_files::write_columns(out, names, columns);
+  }
+
+  void write_labels(const std::vector<std::size_t>& labels) {
+    mesh_files::Output_file& out = file(files_.labels);
+    const std::string extension = mesh_files::extension_of(files_.labels);
+    if (extension == ".npz") return mesh_files::write_labels_npz(out, labels);
+    if (extension == ".csv") return mesh_files::write_labels_csv(out, labels);
+    mesh_files::write_labels(out, labels);
   }
 
   void write_parts(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
                    const std::vector<Segment>& segments) {
-    std::map<std::size_t, std::vector<std::size_t>> faces_of;
-    for (std::size_t f = 0; f < labels.size(); ++f) faces_of[labels[f]].push_back(f);
+    std::map<std::size_t, std::vector<std::size_t>> faces_of = mesh_files::faces_of_labels(labels);
     for (const Segment& segment : segments) {
       const std::vector<std::size_t>& faces = faces_of[segment.label];
       const mesh_files::Polygon_soup part = mesh_files::part_of(soup, faces);
-      mesh_files::write_ply(create(files_.split + "/segment_" + std::to_string(segment.label) + ".ply"), part,
-                            colors_of(part, std::vector(faces.size(), segment.color)),
-                            std::vector(faces.size(), segment.label));
+      const std::vector<std::size_t> part_labels(faces.size(), segment.label);
+      write_mesh(create(files_.split + "/" + mesh_files::name_of_segment(segment.label) + extension_of_parts(options_)),
+                 options_.output_format.value_or(Output_format::ply),
+                 {part, part_labels, {{segment.label, segment.color}}});
     }
   }
 

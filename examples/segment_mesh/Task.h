@@ -8,12 +8,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -39,6 +42,7 @@ inline std::vector<std::pair<const char*, std::string>> written_files(const File
     if (mesh_files::extension_of(path) == ".obj") written.emplace_back("--output", material_library_of(path));
   }
   for (const auto& [option, path] : {std::pair("--labels", files.labels),
+                                     {"--left-out", files.left_out},
                                      {"--probabilities", files.probabilities},
                                      {"--hierarchy", files.hierarchy},
                                      {"--boundaries", files.boundaries},
@@ -48,22 +52,52 @@ inline std::vector<std::pair<const char*, std::string>> written_files(const File
   return written;
 }
 
-/// The files of a mesh by their patterns, in which `%` stands for the name of the mesh without folder and extension.
+/// The name of a mesh without folder and extension, nor ".gz".
+inline std::string name_of_mesh(const std::string& mesh) {
+  if (mesh == mesh_files::standard_input) return "standard_input";
+  const std::filesystem::path name = std::filesystem::path(mesh).filename();
+  return (mesh_files::extension_of(name.string()) == ".gz" ? name.stem() : name).stem().string();
+}
+
+/// The folders on the way to a mesh, joined by "_", so that they tell meshes of the same name apart.
+inline std::string folders_of_mesh(const std::string& mesh) {
+  std::string joined;
+  for (const std::filesystem::path& folder : std::filesystem::path(mesh).parent_path().relative_path())
+    if (!folder.empty() && folder != "." && folder != "..") joined += (joined.empty() ? "" : "_") + folder.string();
+  return joined;
+}
+
+/// A path by its pattern, in which `%` stands for the name of the mesh, `{folder}` for its folders and `%%` for "%".
+inline std::string path_for(const std::string& mesh, const std::string& pattern) {
+  constexpr std::string_view folder = "{folder}";
+  std::string path;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern.compare(i, 2, "%%") == 0) {
+      path += '%';
+      ++i;
+    } else if (pattern[i] == '%') {
+      path += name_of_mesh(mesh);
+    } else if (pattern.compare(i, folder.size(), folder) == 0) {
+      path += folders_of_mesh(mesh);
+      i += folder.size() - 1;
+    } else {
+      path += pattern[i];
+    }
+  }
+  return path;
+}
+
+/// The files of a mesh by their patterns.
 inline Files files_for(const std::string& mesh, Files patterns) {
-  const std::string name = std::filesystem::path(mesh).stem().string();
-  const auto replace = [&](std::string& path) {
-    for (std::size_t at = 0; (at = path.find('%', at)) != std::string::npos; at += name.size())
-      path.replace(at, 1, name);
-  };
-  for (std::string& path : patterns.outputs) replace(path);
+  for (std::string& path : patterns.outputs) path = path_for(mesh, path);
   for (std::string* path :
-       {&patterns.seeds, &patterns.constraints, &patterns.labels, &patterns.split, &patterns.probabilities,
-        &patterns.hierarchy, &patterns.boundaries, &patterns.html, &patterns.report})
-    replace(*path);
+       {&patterns.seeds, &patterns.constraints, &patterns.labels, &patterns.left_out, &patterns.split,
+        &patterns.probabilities, &patterns.hierarchy, &patterns.boundaries, &patterns.html, &patterns.report})
+    *path = path_for(mesh, *path);
   return patterns;
 }
 
-/// The lines of a file, or of standard input for "-"; blank ones are passed over.
+/// The lines of a file, or of standard input for "-"; blank ones and those that start with `#` are passed over.
 inline std::vector<std::string> lines_of(const std::string& path) {
   std::istringstream file;
   if (path != "-") file.str(mesh_files::read_content(path));
@@ -71,7 +105,7 @@ inline std::vector<std::string> lines_of(const std::string& path) {
   std::vector<std::string> result;
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!line.empty()) result.push_back(line);
+    if (!line.empty() && line[0] != '#') result.push_back(line);
   }
   return result;
 }
@@ -81,7 +115,9 @@ inline std::vector<std::string> lines_of(const std::string& path) {
 inline void check_paths(const std::vector<Task>& tasks, const std::string& journal) {
   std::set<std::string> taken;
   const auto take = [&](const std::string& path) {
-    return taken.insert(std::filesystem::weakly_canonical(path).string()).second;
+    std::error_code error;  // of pipes, which have names that lead nowhere
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+    return taken.insert(error ? path : canonical.string()).second;
   };
   for (const Task& task : tasks)
     if (!take(task.mesh)) throw CLI::ValidationError("MESH", task.mesh + " is given twice");
@@ -100,10 +136,10 @@ inline void check_patterns(const Files& patterns) {
   auto written = written_files(patterns);
   if (!patterns.split.empty()) written.emplace_back("--split", patterns.split);
   for (const auto& [option, path] : written) {
-    if (path.find('%') == std::string::npos)
+    if (!has_placeholder(path))
       throw CLI::ValidationError(option, path + ": several meshes need a % in it, which stands for their names");
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (folder.string().find('%') == std::string::npos && !folder.empty() && !std::filesystem::is_directory(folder))
+    if (!has_placeholder(folder.string()) && !folder.empty() && !std::filesystem::is_directory(folder))
       throw mesh_files::Unwritable_file(path + ": there is no such folder");
   }
 }
@@ -112,6 +148,9 @@ inline void check_patterns(const Files& patterns) {
 /// \throws CLI::ValidationError, mesh_files::Unreadable_file, mesh_files::Unwritable_file
 inline std::vector<Task> tasks_of(const Options& options) {
   std::vector<std::string> meshes = options.meshes;
+  if (options.list == mesh_files::standard_input &&
+      std::find(meshes.begin(), meshes.end(), mesh_files::standard_input) != meshes.end())
+    throw CLI::ValidationError("--list", "standard input is a mesh or a list of meshes, not both");
   if (!options.list.empty())
     for (const std::string& line : lines_of(options.list)) meshes.push_back(line);
   if (meshes.empty() && options.list.empty()) throw CLI::RequiredError("a mesh");
@@ -130,6 +169,13 @@ inline std::vector<Task> tasks_of(const Options& options) {
   return tasks;
 }
 
+/// Whether something is written to standard output, so that nothing else may be.
+inline bool writes_to_standard_output(const Files& files) {
+  const auto written = written_files(files);
+  return std::any_of(written.begin(), written.end(),
+                     [](const auto& file) { return mesh_files::open_file_of(file.second) == STDOUT_FILENO; });
+}
+
 /// Whether all files of a mesh are there and none is older than it.
 inline bool is_done(const Task& task) {
   namespace fs = std::filesystem;
@@ -146,7 +192,7 @@ inline bool is_done(const Task& task) {
   const fs::directory_iterator parts(task.files.split, error);
   // A part that has not got its name yet was left by a program that was killed.
   return !error && parts != fs::directory_iterator() && std::all_of(begin(parts), end(parts), [&](const auto& part) {
-    return part.path().extension() == ".ply" && is_new(part.path());
+    return part.path().string().find(".part", task.files.split.size()) == std::string::npos && is_new(part.path());
   });
 }
 

@@ -9,12 +9,20 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace segment_mesh {
+
+/// The formats of meshes, as their files end.
+inline const Names<mesh_files::Format> format_names = {{"off", mesh_files::Format::off},
+                                                       {"ply", mesh_files::Format::ply},
+                                                       {"obj", mesh_files::Format::obj},
+                                                       {"stl", mesh_files::Format::stl}};
 
 /// Adds an option with a few named choices.
 template <class Choice>
@@ -30,6 +38,37 @@ void add_choice(CLI::App& app, const std::string& option, std::optional<Choice>&
   app.add_option_function<std::string>(option, choose, description)->option_text(listed(names, "|"))->group(group);
 }
 
+/// The numbers that an option takes.
+template <class Number>
+struct Range {
+  const char* words;
+  bool (*holds)(Number);
+};
+
+constexpr Range<std::size_t> counts = {"a whole number from 1 to 4294967294",
+                                       [](std::size_t n) { return n >= 1 && n <= 4294967294; }};
+constexpr Range<double> weights = {"from 0 to 1", [](double x) { return x >= 0 && x <= 1; }};
+constexpr Range<double> finite_lengths = {"0 or larger, and finite",
+                                          [](double x) { return x >= 0 && x <= std::numeric_limits<double>::max(); }};
+constexpr Range<double> finite_positive = {"larger than 0 and finite",
+                                           [](double x) { return x > 0 && x <= std::numeric_limits<double>::max(); }};
+constexpr Range<double> positive = {"larger than 0; inf is allowed", [](double x) { return x > 0; }};
+constexpr Range<double> angles = {"an angle in degrees between 0 and 180", [](double x) { return x > 0 && x < 180; }};
+
+/// Adds an option that takes a number.
+/// \tparam Error thrown for a number out of the range; what is no number is wrong usage
+template <class Error = Argument_out_of_range, class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& option, std::optional<Number>& value,
+                        const Range<Number>& range, const std::string& description) {
+  const auto read = [option, &value, range](const std::string& text) {
+    const std::string message = option + " is " + mesh_files::printable(text) + ", but must be " + range.words;
+    value = mesh_files::number_in<Number>(text);
+    if (!value) throw CLI::ValidationError(message);
+    if (!range.holds(*value)) throw Error(message);
+  };
+  return app.add_option_function<std::string>(option, read, description);
+}
+
 /// Makes the command line that fills the options.
 inline void define_command_line(CLI::App& app, Options& options) {
   app.description(summary);
@@ -42,8 +81,13 @@ inline void define_command_line(CLI::App& app, Options& options) {
   for (const auto& [title, text, is_preformatted] : help_sections) footer += std::string(title) + ":\n" + text + "\n";
   app.footer(footer);
 
-  app.add_option("mesh", options.meshes, "The mesh, or several: OFF, PLY, OBJ or STL")->option_text("MESH ...");
-  app.add_option("--list", options.list, "A file with the path of one mesh a line; - is standard input")
+  app.add_option("mesh", options.meshes,
+                 "The mesh, or several: OFF, PLY, OBJ or STL, also packed by gzip; - is standard input")
+      ->option_text("MESH ...");
+  add_choice(app, "--format", options.format, format_names,
+             "What the meshes are, whatever their names and first bytes tell", "Input");
+  app.add_option("--list", options.list,
+                 "A file with the path of one mesh a line; - is standard input, and lines with # are comments")
       ->option_text("FILE")
       ->group("Several meshes");
   app.add_flag("--resume", options.resumes, "Pass over meshes whose outputs are there already")
@@ -61,15 +105,13 @@ inline void define_command_line(CLI::App& app, Options& options) {
           ->option_text("FILE")
           ->group("Segments of your seeds");
 
-  app.add_option("--segments", options.segments, "How many segments; without it as many as the shape suggests")
-      ->check(CLI::NonNegativeNumber)
+  add_number(app, "--segments", options.segments, counts, "How many segments; without it as many as the shape suggests")
       ->option_text("N")
       ->group("Automatic segments");
   auto* automatic_seeds =
-      app.add_option("--seeds", options.automatic_seeds,
-                     "How many automatic seeds make the fragments that are merged (40; more for many --segments).\n"
-                     "Seeds of your own make further fragments.")
-          ->check(CLI::NonNegativeNumber)
+      add_number(app, "--seeds", options.automatic_seeds, counts,
+                 "How many automatic seeds make the fragments that are merged (40; more for many --segments).\n"
+                 "Seeds of your own make further fragments.")
           ->option_text("N")
           ->group("Automatic segments");
   auto* coarse =
@@ -106,24 +148,25 @@ inline void define_command_line(CLI::App& app, Options& options) {
              "What makes neighbouring faces differ: the angle between them as in the paper, its concavity (default),\n"
              "which counts convex creases less, or not at all, or the difference of curvatures, for parts of machines",
              "Difference of faces");
-  app.add_option("--convex-weight", options.convex_weight,
-                 "How much convex creases count beside concave ones, 0 to 1: 0 for automatic segments and\n"
-                 "0.02 for seeds suit natural shapes; 1 with --smoothing 0 suits parts of machines")
+  add_number(app, "--convex-weight", options.convex_weight, weights,
+             "How much convex creases count beside concave ones, 0 to 1: 0 for automatic segments and\n"
+             "0.02 for seeds suit natural shapes; 1 with --smoothing 0 suits parts of machines")
       ->option_text("NUMBER")
       ->group("Difference of faces");
   add_choice(app, "--measure", options.measure, measure_names,
              "What is taken of the angle between faces: itself, or 1 - cosine", "Difference of faces");
-  app.add_option("--radius", options.radius, "Of the balls in which curvatures are measured, in mean edge lengths (3)")
+  add_number(app, "--radius", options.radius, finite_positive,
+             "Of the balls in which curvatures are measured, in mean edge lengths (3)")
       ->option_text("NUMBER")
       ->group("Difference of faces");
-  app.add_option("--smoothing", options.smoothing,
-                 "Smoothing length of the normals as a part of the square root of the area; 0 smooths nothing")
+  add_number(app, "--smoothing", options.smoothing, finite_lengths,
+             "Smoothing length of the normals as a part of the square root of the area; 0 smooths nothing")
       ->option_text("NUMBER")
       ->group("Difference of faces");
-  app.add_option("--sigma", options.sigma, "The difference that stops a walk; 1 is an average edge")
+  add_number(app, "--sigma", options.sigma, finite_positive, "The difference that stops a walk; 1 is an average edge")
       ->option_text("NUMBER")
       ->group("Walk");
-  app.add_option("--cap", options.cap, "The largest difference / sigma that counts, or inf")
+  add_number(app, "--cap", options.cap, positive, "The largest difference / sigma that counts, or inf")
       ->option_text("NUMBER")
       ->group("Walk");
 
@@ -138,8 +181,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
          "between the places of the two.")
       ->option_text("FILE")
       ->group("Walls");
-  app.add_option("--constraints-angle", options.constraints_angle,
-                 "Edges are walls, too, over which the surface turns by more than this angle")
+  add_number<CLI::ValidationError>(app, "--constraints-angle", options.constraints_angle, angles,
+                                   "Edges are walls, too, over which the surface turns by more than this angle")
       ->option_text("DEGREES")
       ->group("Walls");
 
@@ -163,25 +206,36 @@ inline void define_command_line(CLI::App& app, Options& options) {
 
   app.add_option(
          "-o,--output", options.files.outputs,
-         "The coloured mesh: .ply, .off, or .obj with a group and a material for each segment. Repeatable. A PLY file\n"
-         "also holds the labels (\"segment\"), an OBJ file gets a file .mtl beside it.")
+         "The coloured mesh, as the name ends. .ply and .vtp hold the labels (\"segment\"), .off colours; .obj (with "
+         "a\n"
+         "file .mtl beside it) and .glb have a group or primitive and a material for each segment, .3mf an object,\n"
+         ".msh a physical group, .mesh references, and .stl colours of facets. Repeatable.")
       ->allow_extra_args(false)
       ->option_text("FILE")
       ->group("Output");
+  add_choice(
+      app, "--output-format", options.output_format, output_format_names,
+      "What an --output is whose name does not tell, such as /dev/stdout, and the parts of --split (PLY). stl-text\n"
+      "makes files .stl texts, with a solid for each segment.",
+      "Output");
   app.add_flag(
          "--point-colors", options.has_point_colors,
          "Colour points instead of faces, for viewers that do not show colours of faces. Points between segments\n"
          "are written once for each segment.")
       ->group("Output");
-  app.add_option("--labels", options.files.labels, "One label a line for each face")
+  app.add_option("--labels", options.files.labels, "One label a line for each face; or NumPy's .npz, or .csv")
+      ->option_text("FILE")
+      ->group("Output");
+  app.add_option("--left-out", options.files.left_out,
+                 "The faces of the file that are no part of the surface, one number a line, from 0")
       ->option_text("FILE")
       ->group("Output");
   app.add_option("--split", options.files.split,
-                 "One mesh for each segment, in a new or empty folder: segment_LABEL.ply")
+                 "One mesh for each segment, in a new or empty folder: segment_LABEL.ply, or as --output-format tells")
       ->option_text("FOLDER")
       ->group("Output");
   app.add_option("--probabilities", options.files.probabilities,
-                 "One line for each face, one column for each label; the first line names the labels")
+                 "One line for each face, one column for each label; the first line names the labels; or .npz, or .csv")
       ->option_text("FILE")
       ->group("Output");
   app.add_option("--hierarchy", options.files.hierarchy, "All merges, as JSON: any number of segments can be read off")
@@ -197,8 +251,9 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--report", options.files.report, "What was done, as one line of JSON for each mesh")
       ->option_text("FILE")
       ->group("Output");
-  app.add_option("--time-limit", options.seconds,
-                 "Give up a mesh after so many seconds. Reading, repair and writing are not broken off.")
+  add_number<CLI::ValidationError>(
+      app, "--time-limit", options.seconds, finite_positive,
+      "Give up a mesh after so many seconds. Reading, repair and writing are not broken off.")
       ->option_text("SECONDS")
       ->group("Limits");
   app.add_option("--max-memory", options.bytes,

@@ -17,7 +17,7 @@ struct Help_section {
   bool is_preformatted;
 };
 
-constexpr std::array<Help_section, 5> help_sections = {{
+constexpr std::array<Help_section, 6> help_sections = {{
     {"Which way",
      "Animals, people, furniture: no option at all. Parts of machines: --engineering. Too many or too few segments:\n"
      "--segments. Parts that you have in mind: --seed, one or more for each. A seed is a face or the closest face to "
@@ -25,18 +25,26 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "point; faces are numbered from 0 in the order of the file. Edges that no segment may cross: --constraints.\n",
      false},
     {"Outputs",
-     "Every output keeps the order of the faces in the file, only OBJ has them segment by segment. Faces that a "
-     "repair\n"
-     "leaves out get the label of the closest face; with --refine, the mesh is written without them. Outputs are\n"
-     "written whole or not at all: what was there stays until a new file is complete. Only a program that is killed\n"
-     "by SIGKILL leaves files .part* behind, which may be removed. Without an output, the segments are only listed.\n",
+     "Every output keeps the order of the faces in the file, only OBJ, glTF, 3MF, Gmsh and STL texts have them "
+     "segment\n"
+     "by segment. Faces that a repair leaves out get the label of the closest face; with --refine, the mesh is "
+     "written\n"
+     "without them. Outputs are written whole or not at all: what was there stays until a new file is complete. Only "
+     "a\n"
+     "program that is killed by SIGKILL leaves files .part* behind, which may be removed. Without an output, the\n"
+     "segments are only listed; they are not where an output is /dev/stdout.\n",
+     false},
+    {"Input",
+     "OFF, PLY, OBJ and STL, packed by gzip or not; the first bytes tell which, and where they do not, the name or\n"
+     "--format. A file without faces is refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"
-     "(and of --seeds-file and --constraints), % stands for the name of the mesh, without folder and extension. A\n"
-     "--report without % gets one line for each mesh as soon as it is done, with \"error\" in it if it failed. With\n"
-     "--resume, meshes are passed over whose outputs are all there and not older than the mesh; the report goes on\n"
-     "after its last line. Whether other options have changed is not looked at.\n",
+     "(and of --seeds-file and --constraints), % stands for the name of the mesh, without folder and extension,\n"
+     "{folder} for the folders on its path, joined by _, and %% for a percent sign. A --report without a % gets one\n"
+     "line for each mesh as soon as it is done, with \"error\" in it if it failed. With --resume, meshes are passed\n"
+     "over whose outputs are all there and not older than the mesh; the report goes on after its last line. Whether\n"
+     "other options have changed is not looked at.\n",
      false},
     {"Exit codes",
      "  0  success\n"
@@ -47,7 +55,7 @@ constexpr std::array<Help_section, 5> help_sections = {{
      "  5  output that cannot be written\n"
      "  6  one or more of several meshes failed\n"
      "  7  the limit of time or memory was reached\n"
-     "130  cancelled by Ctrl-C or SIGTERM\n",
+     "130  cancelled by Ctrl-C or another signal\n",
      true},
     {"Examples",
      "  segment_mesh hand.off --output hand.ply\n"

@@ -55,8 +55,12 @@ inline void limit_memory(std::uint64_t bytes) {
   throw std::system_error(errno, std::generic_category(), "--max-memory");
 }
 
-/// Makes writing beyond the largest size of a file an error like that of a full disk, not the end of the program.
-inline void survive_full_disks() { std::signal(SIGXFSZ, SIG_IGN); }
+/// Makes writing beyond the largest size of a file, or to a pipe that nobody reads, an error like that of a full disk, not
+/// the end of the program.
+inline void survive_full_disks() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
 
 }  // namespace segment_mesh
 

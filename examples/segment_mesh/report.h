@@ -75,12 +75,14 @@ inline Json parameters_of(const Options& options, const Method& method) {
   return parameters;
 }
 
+/// \param left_out_faces how many faces of the file the mesh lacks; they count in the segments whose labels they get
 inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& soup,
-                      const std::vector<std::string>& remarks, Json parameters, const Segmentation& result,
-                      const std::vector<Segment>& segments, const Json& milliseconds) {
+                      const std::vector<std::string>& remarks, std::size_t left_out_faces, Json parameters,
+                      const Segmentation& result, const std::vector<Segment>& segments, const Json& milliseconds) {
   Json report = {{"mesh", mesh},
                  {"vertices", soup.points.size()},
                  {"faces", soup.number_of_faces()},
+                 {"left_out_faces", left_out_faces},
                  {"repairs", remarks},
                  {"degenerate_faces", result.degenerate_faces},
                  {"walls", result.walls},
@@ -95,8 +97,9 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
   for (const Segment& s : segments)
     report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
   if (!result.fragment.empty()) report["levels"] = result.tree.levels(result.suggested);
-  for (std::size_t s = 0; s < result.surfaces.size(); ++s)
-    report["segments"][s]["surface"] = surface_of(result.surfaces[s]);
+  if (!result.surfaces.empty())
+    for (Json& segment : report["segments"])
+      segment["surface"] = surface_of(result.surfaces[segment["label"].get<std::size_t>()]);
   return report;
 }
 

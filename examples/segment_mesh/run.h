@@ -15,28 +15,22 @@
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
+#include "signals.h"
 #include "walls.h"
 
 #include <RW_segmentation/Progress.h>
 
 #include <CLI/CLI.hpp>
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace segment_mesh {
-
-inline volatile std::sig_atomic_t is_interrupted = 0;
-
-inline void interrupt(int signal) {
-  is_interrupted = 1;
-  std::signal(signal, SIG_DFL);  // the second time ends the program at once
-}
 
 /// Messages on standard error.
 inline void say(const std::string& message) { std::fprintf(stderr, "segment_mesh: %s\n", message.c_str()); }
@@ -47,6 +41,16 @@ struct Outcome {
   std::string message;
 };
 
+/// An error of the library, which knows nothing of options.
+inline std::string in_words_of_options(std::string message) {
+  for (const auto& [words, option] :
+       {std::pair<std::string, const char*>("the number of segments is ", "--segments is "),
+        {"the number of seeds is ", "--seeds is "},
+        {"seeds is ", "--seeds is "}})
+    if (message.compare(0, words.size(), words) == 0) return option + message.substr(words.size());
+  return message;
+}
+
 /// The outcome that the exception in flight stands for.
 inline Outcome failure(const std::string& mesh, const Options& options) {
   try {
@@ -55,12 +59,14 @@ inline Outcome failure(const std::string& mesh, const Options& options) {
     return {wrong_usage, error.what()};
   } catch (const mesh_files::Unreadable_file& error) {
     return {unreadable_input, error.what()};
+  } catch (const Argument_out_of_range& error) {
+    return {wrong_argument, error.what()};
   } catch (const std::invalid_argument& error) {
-    return {wrong_argument, mesh + ": " + error.what()};
+    return {wrong_argument, mesh + ": " + in_words_of_options(error.what())};
   } catch (const mesh_files::Unwritable_file& error) {
     return {unwritable_output, error.what()};
   } catch (const RW_segmentation::Cancelled&) {
-    return {cancelled, "cancelled, nothing was written"};
+    return {cancelled, std::string(cancelled_message)};
   } catch (const Out_of_time&) {
     return {reached_limit, mesh + ": the time limit is over, nothing was written"};
   } catch (const std::bad_alloc&) {
@@ -75,7 +81,7 @@ inline Outcome failure(const std::string& mesh, const Options& options) {
 }
 
 /// What is odd but not wrong.
-inline std::vector<std::string> remarks_on(const Segmentation& result) {
+inline std::vector<std::string> remarks_on(const Segmentation& result, bool has_seeds) {
   std::vector<std::string> remarks;
   if (result.degenerate_faces > 0)
     remarks.push_back(counted(result.degenerate_faces, "face") + " without area, joined to the neighbours");
@@ -83,8 +89,8 @@ inline std::vector<std::string> remarks_on(const Segmentation& result) {
   if (result.unseeded_components > 0)
     remarks.push_back(counted(result.unseeded_components, "component") + " without a seed, each a segment of its own");
   if (result.island_faces > 0)
-    remarks.push_back(counted(result.island_faces, "face") +
-                      " cut off from the seed of their part, given to the neighbours");
+    remarks.push_back(counted(result.island_faces, "face") + " cut off from the " +
+                      (has_seeds ? "seed of their part" : "rest of their fragment") + ", given to the neighbours");
   return remarks;
 }
 
@@ -112,6 +118,13 @@ inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& 
   return walls;
 }
 
+/// \throws mesh_files::Unreadable_file
+inline void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygon_soup& soup) {
+  if (soup.number_of_faces() > 0) return;
+  throw mesh_files::Unreadable_file(path + ": the file has " + counted(soup.points.size(), "vertex", "vertices") +
+                                    " and no faces, so that there is no surface to segment");
+}
+
 /// Segments a mesh as the options tell and writes its files.
 /// \param title of the progress bar
 /// \returns the report
@@ -127,32 +140,37 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   };
 
   stages.start("reading");
-  mesh_files::Polygon_soup soup = mesh_files::read_mesh(task.mesh);
+  mesh_files::Polygon_soup soup = mesh_files::read_mesh(task.mesh, options.format);
   stages.start("repair");
+  refuse_mesh_without_faces(task.mesh, soup);
   Oriented_mesh input = oriented_mesh(soup, options.repairs);
   stages.end();
-  if (input.mesh.number_of_faces() == 0 && soup.number_of_faces() > 0)
+  if (input.mesh.number_of_faces() == 0)
     throw mesh_files::Unreadable_file(task.mesh + ": no face has three different corners");
+  input.remarks.insert(input.remarks.begin(), soup.remarks.begin(), soup.remarks.end());
   remark(input.remarks);
 
   const std::vector<Face_label> seeds = seed_faces(seed_texts, input);
   const Wall_map walls = walls_of(options, constraints, soup, input.mesh);
+  const std::vector<std::size_t> left_out = faces_left_out(input);
   // Before the first output is created, or a signal in between would leave it behind.
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  survive_signals();
   Output_files files(task.files, options);
   Segmentation result = segment(input.mesh, walls, seeds, options, method, stages);
   treat_boundaries(options, soup, input, walls, result, stages, files);
 
   stages.start("writing");
-  const std::vector<Segment> segments = segments_of(input.mesh, result.label);
-  files.write(soup, faces_in_file_order(soup, input), result, segments);
-  files.write_page(task.mesh, input.mesh, result, segments.size());
+  const std::vector<Segment> all_segments = segments_of(input.mesh, result.label);
+  const auto faces = faces_in_file_order(soup, input);
+  const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
+  files.write(soup, faces, result, segments);
+  files.write_left_out(left_out);
+  files.write_page(task.mesh, input.mesh, result, all_segments.size());
   stages.end();
-  Json report = report_of(task.mesh, soup, input.remarks, parameters_of(options, method), result, segments,
-                          stages.milliseconds());
+  Json report = report_of(task.mesh, soup, input.remarks, left_out.size(), parameters_of(options, method), result,
+                          segments, stages.milliseconds());
   files.commit(report);
-  remark(remarks_on(result));
+  remark(remarks_on(result, options.has_seeds() || options.is_coarse));
   return report;
 }
 

@@ -9,6 +9,8 @@
 #include "report.h"
 #include "run.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
@@ -40,7 +42,8 @@ class Journal {
   Journal(std::string path, bool continues) : path_(std::move(path)) {
     if (path_.empty()) return;
     if (continues) remove_partial_line(path_);
-    file_.reset(std::fopen(path_.c_str(), continues ? "ab" : "wb"));
+    const auto open = mesh_files::open_file_of(path_);
+    file_.reset(open ? ::fdopen(::dup(*open), "wb") : std::fopen(path_.c_str(), continues ? "ab" : "wb"));
     if (!file_) fail();
   }
 
@@ -64,18 +67,18 @@ class Journal {
 /// Works through several meshes. One that fails does not end the work.
 inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options) {
   Journal journal(options.journal(), options.resumes);
+  const bool is_quiet = options.is_quiet || mesh_files::open_file_of(options.journal()) == STDOUT_FILENO;
   std::size_t done = 0, failed = 0;
   for (const Task& task : tasks) {
     const std::string title = std::to_string(++done) + " of " + std::to_string(tasks.size()) + ": ";
     if (options.resumes && is_done(task)) {
-      if (!options.is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
+      if (!is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
       continue;
     }
     try {
       const Json report = run(task, options, title);
       journal.write(report);
-      if (!options.is_quiet)
-        std::printf("%s: %s\n", task.mesh.c_str(), counted(report["segments"].size(), "segment").c_str());
+      if (!is_quiet) std::printf("%s: %s\n", task.mesh.c_str(), counted(report["segments"].size(), "segment").c_str());
     } catch (const std::exception&) {
       const Outcome outcome = failure(task.mesh, options);
       if (outcome.code == cancelled) throw;

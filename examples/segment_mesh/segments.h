@@ -48,6 +48,21 @@ inline std::vector<Segment> segments_of(const Mesh& mesh, const std::vector<std:
   return segments;
 }
 
+/// The segments with the numbers of faces that have their labels in the file, faces included that a repair leaves out. A
+/// segment is left out, too, if it has none: the parts of a face that touches itself may have several labels.
+/// \param labels in the order of the file
+inline std::vector<Segment> counted_in_file(std::vector<Segment> segments, const std::vector<std::size_t>& labels) {
+  for (Segment& s : segments) s.faces = 0;
+  for (const std::size_t label : labels) {
+    const auto found = std::lower_bound(segments.begin(), segments.end(), label,
+                                        [](const Segment& s, std::size_t wanted) { return s.label < wanted; });
+    ++found->faces;
+  }
+  segments.erase(std::remove_if(segments.begin(), segments.end(), [](const Segment& s) { return s.faces == 0; }),
+                 segments.end());
+  return segments;
+}
+
 }  // namespace segment_mesh
 
 #endif

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 
-// Bytes as a file of each format: read into a sound soup, or refused with one line that names the file.
+// Bytes as a file of each format, or of one that its first bytes tell: read into a sound soup, or refused with one line that names the file.
 
 #include "../../examples/mesh_files.h"
 
 #include "Fuzzed_input.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,15 +17,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     const auto read = [&]() -> mesh_files::Polygon_soup {
-      switch (data[0] % 4) {
+      switch (data[0] % 5) {
         case 0:
           return mesh_files::read_off("file", content);
         case 1:
           return mesh_files::read_ply("file", content);
         case 2:
           return mesh_files::read_obj("file", content);
-        default:
+        case 3:
           return mesh_files::read_stl("file", content);
+        default:  // packed or not, and whatever it begins with
+          return mesh_files::mesh_of_content("file", std::string(content));
       }
     };
     const mesh_files::Polygon_soup soup = read();

@@ -48,6 +48,27 @@ std::vector<std::string> files_of(const meshes::Shape& shape) {
           })};
 }
 
+/// Dialects, behind the byte that chooses the reader.
+std::vector<std::string> dialects() {
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n",
+                    facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 ";
+  using namespace std::string_literals;
+  return {
+      "\0OFF3 1 3 0 0 0 1 0 0 0 1 0 3 0 1 2"s,
+      "\0"
+      "4OFF\n1 1 0\n1 2 3 4\n1 0\n"s,
+      "\0nOFF\n3\n3 1 0\n"s + points + "3\n0 1\n2\n",
+      "\1ply\rformat ascii 1.0\rby a program\relement vertex 3\rproperty float x\rproperty int64 y\rproperty float z\r"
+      "element tristrips 1\rproperty list int int vertex_indices\rend_header\r"s +
+          points + "8 0 1 2 0 -1 1 2 0\n",
+      "\2\xef\xbb\xbfv 0 0 0\rv 1 0 0\r\nv 0 1 0\nfo 1 2 \\\n-1\n"s,
+      "\3solid a b " + facet + "vertex 0 1 0 endloop endfacet endsolid",
+      "\4 \n solid\n" + facet + "vertex 0 1 0\nendloop\nendfacet\n", "\4version https://git-lfs.github.com/spec/v1\n",
+      "\4\xff\xfev\0 \0"s,
+      // "OFF 0 0 0", packed by gzip.
+      "\4\x1f\x8b\x08\0\0\0\0\0\x02\x03\xf3\x77\x73\x53\x30\0\x41\0\x41\xb0\x82\xbe\x09\0\0\0"s};
+}
+
 std::string random_bytes(unsigned seed) {
   std::mt19937 random(seed);
   std::string bytes(std::size_t(16) << random() % 6, '\0');
@@ -66,6 +87,7 @@ int main(int argc, char** argv) {
     if (std::string(argv[i]) == "fuzz_mesh_files") {
       for (const meshes::Shape& shape : {meshes::Shape(), meshes::plane(1), meshes::cube(1), meshes::sphere(1)})
         for (const std::string& file : files_of(shape)) add(file);
+      for (const std::string& file : dialects()) add(file);
     } else {
       for (unsigned seed = 0; seed < 100; ++seed) add(random_bytes(seed));
     }

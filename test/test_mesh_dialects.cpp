@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+
+// Dialects of mesh files: what programs of the world write beside what the formats say.
+
+#include "../examples/mesh_files.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/endian/conversion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using mesh_files::Polygon_soup;
+using Point = Polygon_soup::Point;
+using Order = boost::endian::order;
+using Faces = std::vector<std::vector<std::size_t>>;
+using Triangle = std::array<Point, 3>;
+
+const std::string byte_order_mark = "\xef\xbb\xbf";
+
+template <class Value>
+std::string bytes(std::initializer_list<Value> values, Order order = Order::little) {
+  std::string result;
+  for (const Value value : values) {
+    std::array<unsigned char, sizeof(Value)> b;
+    if (order == Order::little)
+      boost::endian::endian_store<Value, sizeof(Value), Order::little>(b.data(), value);
+    else
+      boost::endian::endian_store<Value, sizeof(Value), Order::big>(b.data(), value);
+    result.append(b.begin(), b.end());
+  }
+  return result;
+}
+
+const std::vector<Point> tetrahedron_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
+const Faces tetrahedron_faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+
+/// The triangles by their corners' places, each from its lowest corner on.
+std::vector<Triangle> triangles_of(const Polygon_soup& soup) {
+  std::vector<Triangle> result;
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    const auto face = soup.face(f);
+    EXPECT_EQ(face.size(), 3);
+    Triangle triangle = {soup.points[face[0]], soup.points[face[1]], soup.points[face[2]]};
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    result.push_back(triangle);
+  }
+  return result;
+}
+
+std::vector<Triangle> tetrahedron() {
+  Polygon_soup soup;
+  soup.points = tetrahedron_points;
+  for (const auto& face : tetrahedron_faces) {
+    for (const std::size_t corner : face) soup.corners.push_back(static_cast<Polygon_soup::Index>(corner));
+    soup.end_face();
+  }
+  return triangles_of(soup);
+}
+
+struct File {
+  std::string name, content, remark = "";
+};
+
+void expect_tetrahedron(const File& file) {
+  try {
+    const Polygon_soup soup = mesh_files::mesh_of_content(file.name, file.content);
+    EXPECT_EQ(soup.points.size(), 4U) << file.name;
+    EXPECT_EQ(triangles_of(soup), tetrahedron()) << file.name;
+    ASSERT_EQ(soup.remarks.size(), file.remark.empty() ? 0U : 1U) << file.name;
+    if (!file.remark.empty()) {
+      EXPECT_NE(soup.remarks[0].find(file.remark), std::string::npos) << soup.remarks[0];
+    }
+  } catch (const mesh_files::Unreadable_file& error) {
+    ADD_FAILURE() << error.what();
+  }
+}
+
+void expect_refusal(const std::string& name, const std::string& content, const std::string& message) {
+  try {
+    mesh_files::mesh_of_content(name, content);
+    ADD_FAILURE() << name << " was read";
+  } catch (const mesh_files::Unreadable_file& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.compare(0, name.size(), name), 0) << what;
+    EXPECT_NE(what.find(message), std::string::npos) << what << "\ndoes not say " << message;
+    EXPECT_TRUE(std::all_of(what.begin(), what.end(), [](char c) { return c >= ' ' && c <= '~'; })) << what;
+  }
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
+    text.replace(at, what.size(), with);
+  return text;
+}
+
+const std::string off_points = "0 0 0\n1 0 0\n0 1 0\n0 0 0.5\n", off_faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+const std::string off = "OFF\n4 4 6\n" + off_points + off_faces;
+const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const std::string ply_vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string ply_faces = "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string ply = "ply\nformat ascii 1.0\n" + ply_vertices + ply_faces + off_points + off_faces;
+
+/// The data of a binary PLY file: floats and, for each face, a byte and whole numbers.
+template <class Index>
+std::string ply_data(Order order = Order::little) {
+  std::string data;
+  for (const Point& p : tetrahedron_points)
+    for (int i = 0; i < 3; ++i) data += bytes({static_cast<float>(p[i])}, order);
+  for (const auto& f : tetrahedron_faces)
+    data += "\3" + bytes<Index>({static_cast<Index>(f[0]), static_cast<Index>(f[1]), static_cast<Index>(f[2])}, order);
+  return data;
+}
+
+std::string text_stl(const std::string& name = "t", bool is_ended = true) {
+  std::ostringstream file;
+  file << "solid " << name << "\n";
+  for (const auto& f : tetrahedron_faces) {
+    file << "facet normal 0 0 1\n outer loop\n";
+    for (const std::size_t v : f) file << "  vertex " << tetrahedron_points[v] << "\n";
+    file << " endloop\nendfacet\n";
+  }
+  if (is_ended) file << "endsolid " << name << "\n";
+  return file.str();
+}
+
+std::string binary_stl(const std::string& header, std::uint32_t count = 4) {
+  std::string file = header;
+  file.resize(80, ' ');
+  file += bytes({count});
+  for (const auto& f : tetrahedron_faces) {
+    file += std::string(12, '\0');
+    for (const std::size_t v : f)
+      for (int i = 0; i < 3; ++i) file += bytes({static_cast<float>(tetrahedron_points[v][i])});
+    file += std::string(2, '\0');
+  }
+  return file;
+}
+
+}  // namespace
+
+TEST(Mesh_dialects, MarksAndBlanksAtTheBeginningArePassedOver) {
+  for (const std::string& before : {byte_order_mark, byte_order_mark + "\r\n", std::string("\n \t\n  ")})
+    for (const auto& [name, content] :
+         {std::pair<std::string, std::string>("t.off", off), {"t.obj", obj}, {"t.ply", ply}, {"t.stl", text_stl()}})
+      expect_tetrahedron({name, before + content});
+  expect_tetrahedron({"indented.obj", "  " + replaced(obj, "\n", "\n\t ")});
+  expect_tetrahedron({"binary.ply", byte_order_mark + "ply\nformat binary_little_endian 1.0\n" + ply_vertices +
+                                        ply_faces + ply_data<std::int32_t>()});
+}
+
+TEST(Mesh_dialects, LinesMayEndInAnyWay) {
+  for (const std::string& end : {std::string("\r"), std::string("\r\n"), std::string("\n\r\n")})
+    for (const auto& [name, content] :
+         {std::pair<std::string, std::string>("t.off", off), {"t.obj", obj}, {"t.ply", ply}, {"t.stl", text_stl()}})
+      expect_tetrahedron({name, replaced(content, "\n", end)});
+  // Two programs wrote at this file.
+  expect_tetrahedron({"mixed.obj", obj.substr(0, 16) + replaced(obj.substr(16), "\n", "\r")});
+}
+
+TEST(Mesh_dialects, HeadersOfBinaryPlyFilesEndWithCarriageReturns) {
+  for (const Order order : {Order::little, Order::big}) {
+    const std::string header = "ply\nformat binary_" + std::string(order == Order::little ? "little" : "big") +
+                               "_endian 1.0\n" + ply_vertices + ply_faces;
+    for (const std::string& end : {std::string("\r"), std::string("\n"), std::string("\r\n")})
+      expect_tetrahedron({"rhino.ply", replaced(header, "\n", end) + ply_data<std::int32_t>(order)});
+  }
+  // The data begin with a byte that is a line feed.
+  const std::string header =
+      "ply\rformat binary_little_endian 1.0\relement vertex 10\rproperty char x\rproperty char y\r"
+      "property char z\relement face 0\rproperty list uchar int vertex_indices\rend_header\r";
+  EXPECT_EQ(mesh_files::mesh_of_content("feed.ply", header + std::string(30, '\n')).points.at(9), Point(10, 10, 10));
+}
+
+TEST(Mesh_dialects, ObjFacesOfTheFirstYears) { expect_tetrahedron({"fo.obj", replaced(obj, "f ", "fo ")}); }
+
+TEST(Mesh_dialects, PlyHeadersMaySayMore) {
+  expect_tetrahedron({"signed.ply", replaced(ply, "format", "Created by a program, 2003\nformat")});
+  expect_tetrahedron({"late.ply", replaced(ply, "end_header", "obj_info 7\nwritten at night\nend_header")});
+}
+
+TEST(Mesh_dialects, PlyNumbersOf64Bits) {
+  const std::string header = "ply\nformat binary_little_endian 1.0\n" + ply_vertices;
+  const auto faces = [](const std::string& type) { return replaced(ply_faces, "uchar int", "uchar " + type); };
+  for (const char* type : {"int64", "long"})
+    expect_tetrahedron({type + std::string(".ply"), header + faces(type) + ply_data<std::int64_t>()});
+  for (const char* type : {"uint64", "ulong"})
+    expect_tetrahedron({type + std::string(".ply"), header + faces(type) + ply_data<std::uint64_t>()});
+  std::string far = header + faces("uint64") + ply_data<std::uint64_t>();
+  far.back() = '\x80';
+  expect_refusal("far.ply", far, "a corner of the face is 922337203685477");
+}
+
+TEST(Mesh_dialects, PlyStripsOfTriangles) {
+  const auto file = [](const std::string& strips) {
+    return "ply\nformat ascii 1.0\n" + ply_vertices + "element tristrips 1\nproperty list int int vertex_indices\n" +
+           "end_header\n" + off_points + strips;
+  };
+  // The second triangle of a strip is turned; -1 ends one; a corner twice leads on.
+  expect_tetrahedron({"two.ply", file("13 0 2 1 -1 0 1 3 2 -1 2 0 3 -1\n"), ""});
+  expect_tetrahedron({"joined.ply", file("21 0 2 1 1 0 0 0 1 3 3 1 1 1 2 3 3 2 2 2 0 3\n")});
+  expect_refusal("far.ply", file("3 0 1 4\n"), "the face names vertex 4, the file has 4");
+  expect_refusal("negative.ply", file("3 0 1 -2\n"), "a corner of the face is -2");
+}
+
+TEST(Mesh_dialects, TextStlInAnyLayout) {
+  const std::string line = replaced(text_stl(), "\n", " ");
+  for (const File& file :
+       {File{"one_line.stl", line}, File{"one_line_of_windows.stl", line + "\r\n"},
+        File{"no_name.stl", replaced(line, "solid t", "solid")},
+        File{"word_a_line.stl", replaced(text_stl(), " outer loop", "outer\nloop")},
+        File{"named.stl", text_stl("facet of a vertex")},
+        File{"named_on_one_line.stl", replaced(text_stl("a vertex"), "\n", " ")},
+        File{"capitals.stl", replaced(replaced(text_stl(), "vertex", "VERTEX"), "solid", "SOLID")},
+        File{"blanks.stl", "   " + text_stl()},
+        File{"two.stl", text_stl().substr(0, text_stl().find("facet n", 30)) + "endsolid\nsolid 2\n" +
+                            text_stl().substr(text_stl().find("facet n", 30))},
+        File{"headless.stl", text_stl().substr(8)}, File{"latin.stl", text_stl("b\xe4r")},
+        File{"endless.stl", text_stl("t", false), "ends without \"endsolid\""}})
+    expect_tetrahedron(file);
+  const std::string endless = text_stl("t", false);
+  expect_refusal("cut.stl", endless.substr(0, endless.size() - 10), "the file ends here");
+}
+
+TEST(Mesh_dialects, BinaryStlThatBeginsLikeTextOrIsNotQuiteAsLongAsItSays) {
+  for (const char* header : {"solid", "SCAN", "  solid made of bytes\n facet"}) {
+    const std::string file = binary_stl(header);
+    expect_tetrahedron({"exact.stl", file});
+    expect_tetrahedron({"long.stl", file + "x", "passed over 1 byte"});
+    expect_tetrahedron({"longer.stl", file + std::string(70, '\0'), "passed over 70 bytes"});
+    expect_tetrahedron({"short.stl", file.substr(0, file.size() - 1), "the last facet lacks 1 "});
+    expect_tetrahedron({"shorter.stl", file.substr(0, file.size() - 2), "the last facet lacks 2 "});
+    expect_refusal("cut.stl", file.substr(0, file.size() - 3), "the header promises 4 facets, which take 284 bytes");
+    expect_tetrahedron({"uncounted.stl", binary_stl(header, 0), "counts no facets, but 4 follow"});
+    expect_refusal("uncounted.stl", binary_stl(header, 0) + "x", "the header counts no facets, but 201 bytes follow");
+  }
+}
+
+TEST(Mesh_dialects, OffInAnyLayout) {
+  const std::string body = "4 4 6\n" + off_points + off_faces;
+  for (const std::string& content :
+       {replaced(off, "\n", " "), "OFF4 4 6\n" + off_points + off_faces, "off\n" + body, "coff\n" + body, body,
+        replaced(body, "\n", " "), "OFF 4\n4\n6\n" + off_points + off_faces, "nOFF\n3\n" + body, "nOFF 3 " + body,
+        "4OFF\n4 4 6\n0 0 0 1\n2 0 0 2\n0 0.5 0 0.5\n0 0 0.5 1\n" + off_faces,
+        "OFF\n4 4 6\n" + off_points + replaced(off_faces, "3 ", "3\n").replace(0, 2, "3 "),
+        "OFF\n4 4 6\n" + off_points + "3 0 2\n1\n3\n0 1\n3\n3 1 2 3\n3 2 0 3\n",
+        "OFF\n4 4 6\n" + off_points + replaced(off_faces, "\n", " "),
+        "OFF\n4 4 6\n" + replaced(off_points, "\n", "\t") + "\n" + off_faces,
+        "OFF\n4 4 0\n" + replaced(off_points, "\n", " 1 0 0\n") + replaced(off_faces, "\n", " 255 0 0\n")})
+    expect_tetrahedron({"t.off", content});
+  for (const std::string& content : {off, "OFF4 4 6\n" + off_points + off_faces, "off\n" + body})
+    expect_tetrahedron({"no_extension", content});
+  expect_refusal("n.off", "nOFF\n4\n" + body, "the mesh has 4 dimensions");
+  expect_refusal("4.off", "4OFF\n1 0 0\n1 0 0 0\n", ":3: a vertex at infinity");
+  // A corner too few is not made up for by the number of corners of the next face.
+  expect_refusal("few.off", replaced(off, "3 0 1 3", "3 0 1"), ":8: a corner of the face is missing");
+}
+
+TEST(Mesh_dialects, ObjIsKnownByItsFirstWordWhereNoNameTells) {
+  expect_tetrahedron({"no_extension", "# by hand\n" + obj});
+  EXPECT_EQ(mesh_files::mesh_of_content("-", "usemap x\n" + obj, mesh_files::Format::obj).points.size(), 4U);
+  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ or STL file");
+}
+
+TEST(Mesh_dialects, WhatIsNoMeshIsCalledByItsName) {
+  std::string utf16, big_utf16;
+  for (const char c : obj) {
+    utf16 += {c, '\0'};
+    big_utf16 += {'\0', c};
+  }
+  for (const char* extension : {".off", ".obj", ".ply", ".stl", ""}) {
+    const std::string name = std::string("t") + extension;
+    expect_refusal(name, "\xff\xfe" + utf16, "this is text in UTF-16");
+    expect_refusal(name, "\xfe\xff" + big_utf16, "this is text in UTF-16");
+    expect_refusal(name, utf16, "this is text in UTF-16");
+    expect_refusal(name, "\n<!DOCTYPE html>\n<html>", "this is a page of the web");
+    expect_refusal(name, "<HTML><body>404", "this is a page of the web");
+    expect_refusal(name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "Git LFS");
+    expect_refusal(name, "PK\3\4" + std::string(50, '\1'), "ZIP archive");
+  }
+  expect_refusal("text.stl",
+                 "This is a text of more than eighty-four bytes, whose letters are no number of facets at all.\n",
+                 ":1: an STL text starts with \"solid\", this one with 'This'");
+}
+
+#ifdef RW_SEGMENTATION_WITH_ZLIB
+
+namespace {
+
+std::string packed(const std::string& content) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string result(content.size() + 100, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(result.data());
+  stream.avail_out = static_cast<uInt>(result.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  result.resize(stream.total_out);
+  deflateEnd(&stream);
+  return result;
+}
+
+}  // namespace
+
+TEST(Mesh_dialects, GzipIsKnownByItsFirstBytes) {
+  for (const auto& [name, content] : {std::pair<std::string, std::string>("t.off.gz", off),
+                                      {"t.obj.gz", obj},
+                                      {"t.obj", obj},
+                                      {"no_extension", ply},
+                                      {"t.stl.gz", binary_stl("solid")}})
+    expect_tetrahedron({name, packed(content)});
+  expect_tetrahedron({"parts.off", packed(off.substr(0, 20)) + packed(off.substr(20))});
+  expect_tetrahedron({"padded.off", packed(off) + std::string(512, '\0')});
+  const std::string large = packed("OFF 4 4 6" + std::string(1000000, ' ') + "\n" + off_points + off_faces);
+  expect_tetrahedron({"large.off", large});
+  expect_refusal("cut.off", large.substr(0, large.size() / 2), "the gzip file is cut off");
+  expect_refusal("broken.off", replaced(packed(off), packed(off).substr(10, 8), "brrroken"), "the gzip file is broken");
+}
+
+#endif
+
+TEST(Mesh_dialects, AFileOnDiskIsReadLikeItsContent) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / (std::to_string(std::random_device()()) + ".obj");
+  std::ofstream(path, std::ios::binary) << byte_order_mark << obj;
+  EXPECT_EQ(triangles_of(mesh_files::read_mesh(path.string())), tetrahedron());
+  std::filesystem::remove(path);
+}
