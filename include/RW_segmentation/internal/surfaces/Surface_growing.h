@@ -114,6 +114,7 @@ class Surface_growing {
 
   void run(const Pass& pass, const std::vector<Index>& order, const Progress& progress) {
     progress_ = progress;
+    progress_(0);
     for (std::size_t i = 0; i < order.size(); ++i) {
       done_ = static_cast<double>(i) / static_cast<double>(order.size());
       add_work(1);
