@@ -108,7 +108,7 @@ auto hierarchy_of_surfaces(const FaceListGraph& mesh, const NamedParameters& np)
 /// and not on the mesh's position and size. A mesh that has its own normals, such as `smoothed_shape()`, is seen by these.
 ///
 /// Complexity: linear in the number of faces for meshes whose regions have several faces each; the time of a few fits, 0.1
-/// to 0.2 ms, for each face that no region holds. Where TBB is linked, its threads share the work that pays.
+/// to 0.2 ms, for each face that no region holds on coarse meshes, and less on fine ones. Where TBB is linked, its threads share the work that pays.
 ///
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree, or a `Dual_mesh_of` one

@@ -111,6 +111,14 @@ class Face_patches {
     return beside;
   }
 
+  /// Whether all neighbours of a face are free and turn by less than an angle against it.
+  bool is_smooth_within(Index face, double angle) const {
+    const auto neighbours = mesh_.graph().neighbours(face);
+    return std::all_of(neighbours.begin(), neighbours.end(), [&](const Dual_graph::Neighbour& n) {
+      return is_free(n.face) && !is_sharp_[n.edge] && angle_[n.edge] < angle;
+    });
+  }
+
   /// Marks the faces of a patch, until the next patch is marked or collected.
   void mark(const Patch& patch) {
     ++mark_;

@@ -34,7 +34,6 @@ class Least_squares_surface {
   Least_squares_surface(const Type& surface, const std::vector<Eigen::Vector3d>& points,
                         double largest_residual = std::numeric_limits<double>::infinity())
       : surface_(surface), points_(points), sum_(squared_distances(surface, points)) {
-    constexpr double out_of_reach = 10;  // largest residuals: linearised steps shrink residuals by less when they fail
     hopeless_squares_ = out_of_reach * out_of_reach * largest_residual * largest_residual * number_of_points();
     if constexpr (!Type::first_guess_is_closest) fit();
   }
@@ -44,6 +43,8 @@ class Least_squares_surface {
   double residual() const { return std::sqrt(sum_ / number_of_points()); }
 
  private:
+  static constexpr double out_of_reach =
+      10;  // largest residuals: linearised steps shrink residuals by less when they fail
   static constexpr int unknowns = Type::degrees_of_freedom;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
   using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
@@ -53,11 +54,13 @@ class Least_squares_surface {
   void fit() {
     constexpr int most_steps = 20;
     constexpr double least_progress = 1e-3;  // of a step, as a part of the squares
+    constexpr double least_far_off = 2e-2;   // likewise, of one beyond the largest residual: 20 such steps gain a third
+    const double largest = hopeless_squares_ / (out_of_reach * out_of_reach);
     // Residuals below a ten-billionth of the mesh: nothing is left to gain.
     const double exact = 1e-20 * number_of_points();
     for (int step = 0; step < most_steps && sum_ > exact; ++step) {
       const double before = sum_;
-      if (!descend() || before - sum_ < least_progress * before) break;
+      if (!descend() || before - sum_ < (sum_ > largest ? least_far_off : least_progress) * before) break;
     }
   }
 

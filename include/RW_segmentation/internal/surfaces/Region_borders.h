@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_growing.h>
@@ -28,7 +29,9 @@ class Region_borders {
   Region_borders(const Dual_mesh& mesh, const Surface_tolerance& tolerance, Analytic_regions& regions)
       : mesh_(mesh), tolerance_(tolerance), regions_(regions) {}
 
-  void settle() {
+  /// Reports that all is done, again and again, so that it can be cancelled.
+  void settle(const Progress& progress) {
+    progress_ = progress;
     if (tolerance_.is_noisy())
       settle_noisy();
     else
@@ -64,12 +67,14 @@ class Region_borders {
   /// \param cost of a face, in a region or none
   template <class Cost>
   bool move_faces(int most_sweeps, const Cost& cost) {
-    constexpr double least_gain = 1e-3;  // of a move, lest rounding errors move faces to and fro
+    constexpr Index between_reports = 10000;  // faces, some milliseconds
+    constexpr double least_gain = 1e-3;       // of a move, lest rounding errors move faces to and fro
     std::vector<std::size_t>& region_of_face = regions_.region_of_face;
     bool has_moved = false;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       bool moves = false;
       for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
+        if (f % between_reports == 0) progress_(1);
         const std::size_t own = region_of_face[f];
         std::size_t best = own;
         double least = cost(f, own);
@@ -166,6 +171,7 @@ class Region_borders {
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
   Analytic_regions& regions_;
+  Progress progress_;
 };
 
 }  // namespace RW_segmentation::internal

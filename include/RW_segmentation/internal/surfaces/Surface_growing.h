@@ -36,6 +36,9 @@ struct Analytic_regions {
 /// A surface is fitted to the neighbourhood of a face, flooded as far as vertices and normals agree, fitted to what was
 /// flooded, and so on, until it grows no more. Of all types the one that explains most vertices is kept. Regions that
 /// explain many vertices are taken first; `gain` is the number of vertices beyond those that determine the surface.
+///
+/// Failures teach: where nothing fits about a face, the faces round it are not tried, until a region is taken nearby. So
+/// free forms cost little.
 class Surface_growing {
  public:
   using Index = Dual_mesh::Index;
@@ -46,9 +49,11 @@ class Surface_growing {
         tolerance_(tolerance),
         patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
         failures_(mesh.number_of_faces()),
-        possible_gain_(mesh.number_of_faces(), std::numeric_limits<double>::infinity()),
+        possible_gain_(mesh.number_of_faces(), unknown_gain),
         tries_(mesh.number_of_faces(), 0) {
     regions_.region_of_face.assign(mesh.number_of_faces(), Analytic_regions::none);
+    least_cosine_.reserve(tolerance.normal_angle.size());
+    for (const double angle : tolerance.normal_angle) least_cosine_.push_back(std::cos(angle));
   }
 
   /// Grows all regions, once.
@@ -64,6 +69,8 @@ class Surface_growing {
 
  private:
   using Patch = Face_patches::Patch;
+
+  static constexpr double unknown_gain = std::numeric_limits<double>::infinity();
 
   struct Region {
     Patch patch;
@@ -106,21 +113,33 @@ class Surface_growing {
   }
 
   void run(const Pass& pass, const std::vector<Index>& order, const Progress& progress) {
-    constexpr std::size_t between_reports = 1000;
+    progress_ = progress;
+    progress_(0);
     for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i % between_reports == 0) progress(static_cast<double>(i) / static_cast<double>(order.size()));
+      done_ = static_cast<double>(i) / static_cast<double>(order.size());
+      add_work(1);
       const Index seed = order[i];
       if (!patches_.is_free(seed) || normal(seed).isZero() || possible_gain_[seed] < pass.least_gain) continue;
       Region region = best_region(seed, pass);
       if (region.gain < pass.least_gain) {
-        if (tolerance_.is_noisy()) expect_no_more(seed, region);
+        expect_no_more(seed, region);
         continue;
       }
       if (!tolerance_.is_noisy()) prefer_rivals(region, pass);
       patches_.take(region.patch);
+      expect_anything_beside(region.patch);
       for (const Index f : region.patch.faces) regions_.region_of_face[f] = regions_.surfaces.size();
       regions_.surfaces.push_back(region.surface);
     }
+  }
+
+  /// Reports after some milliseconds of work. The unit is the time in which a face is flooded.
+  void add_work(std::size_t faces) {
+    constexpr std::size_t between_reports = 50000;
+    work_ += faces;
+    if (work_ < between_reports) return;
+    work_ = 0;
+    progress_(done_);
   }
 
   const Eigen::Vector3d& normal(Index face) const { return mesh_.shape_normals()[face]; }
@@ -129,22 +148,69 @@ class Surface_growing {
 
   /// The region about a face that explains most.
   Region best_region(Index seed, const Pass& pass) {
-    const bool is_noisy = tolerance_.is_noisy();  // all sizes are tried then
     const std::vector<std::size_t>& sizes = first_sizes();
     Region best;
-    const std::size_t largest = is_noisy ? 0 : hash_of(patches_.neighbourhood(seed, sizes.back()));
-    if (is_noisy || !has_failed(seed, largest, pass.least_gain)) {
-      for (const std::size_t size : sizes) {
-        if (size < pass.smallest_start) continue;
-        const Patch start = patches_.neighbourhood(seed, size);
-        improve(best, seed, start, pass.least_gain);
-        if (best.gain >= pass.least_gain && !is_noisy) return best;
-        if (start.vertices.size() < size) break;
-      }
+    farthest_ = Patch();
+    const Patch about = patches_.neighbourhood(seed, size_about());
+    is_in_sheet_ = is_part_of_sheet(about);
+    const std::size_t largest = tolerance_.is_noisy() ? 0 : hash_of(about);
+    if (tolerance_.is_noisy() || !has_failed(seed, largest, pass.least_gain)) {
+      if (begins_well(best, seed, pass)) return best;
       failures_[seed] = {largest, best.gain};
     }
     if (pass.along_strips) improve(best, seed, patches_.flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
     return best;
+  }
+
+  /// Tries the neighbourhoods of a seed. True if one gains enough so that others need not be tried.
+  bool begins_well(Region& best, Index seed, const Pass& pass) {
+    const bool is_noisy = tolerance_.is_noisy();  // all sizes are tried then
+    for (const std::size_t size : first_sizes()) {
+      if (size < pass.smallest_start) continue;
+      const Patch start = patches_.neighbourhood(seed, size);
+      improve(best, seed, start, pass.least_gain);
+      if (best.gain >= pass.least_gain && !is_noisy) return true;
+      if (start.vertices.size() < size) break;
+    }
+    return !is_noisy && is_in_sheet_ && (is_found_wider(best, seed, pass) || is_found_farther(best, seed, pass));
+  }
+
+  /// Widens a neighbourhood that is all but flat until its curvature shows.
+  bool is_found_wider(Region& best, Index seed, const Pass& pass) {
+    constexpr std::size_t widening = 4, most_vertices = 3000;
+    Patch start = patches_.neighbourhood(seed, first_sizes().back());
+    std::size_t size = first_sizes().back();
+    while (start.vertices.size() >= size && widening * size <= most_vertices && is_all_but_flat(start)) {
+      size *= widening;
+      start = patches_.neighbourhood(seed, size);
+      improve(best, seed, start, pass.least_gain);
+      if (best.gain >= pass.least_gain) return true;
+    }
+    return false;
+  }
+
+  bool is_all_but_flat(const Patch& patch) {
+    constexpr double deviations = 10;  // root mean square distance from a plane; 3 miss the sphere of a benchmark
+    return fit_analytic_surface(Surface_type::plane, patches_.samples_of(patch), deviations * tolerance_.distance)
+        .has_value();
+  }
+
+  /// Begins anew with most of a region that went astray, the largest one: a cylinder leads far on a slender cone, whose
+  /// own numbers show then.
+  bool is_found_farther(Region& best, Index seed, const Pass& pass) {
+    constexpr int most_times = 3;
+    constexpr double part = 0.6;              // of the faces, those that were reached first
+    constexpr std::size_t least_growth = 2;   // from time to time
+    constexpr std::size_t fewest_faces = 40;  // less than the largest neighbourhood has
+    std::size_t least = fewest_faces;
+    for (int time = 0; time < most_times; ++time) {
+      const auto first = static_cast<std::ptrdiff_t>(part * static_cast<double>(farthest_.faces.size()));
+      if (static_cast<std::size_t>(first) <= least) return false;
+      least = least_growth * farthest_.faces.size();
+      improve(best, seed, patches_.of({farthest_.faces.begin(), farthest_.faces.begin() + first}), pass.least_gain);
+      if (best.gain >= pass.least_gain) return true;
+    }
+    return false;
   }
 
   /// Whether regions that begin as the same neighbourhood gained too little before.
@@ -158,20 +224,32 @@ class Surface_growing {
   void improve(Region& best, Index seed, const Patch& start, double least_gain) {
     constexpr double noticeable_ratio = 1.05, noticeable_vertices = 2;
     constexpr std::size_t least_surplus = 2;  // vertices beyond those that determine a surface
+    start_samples_ = patches_.samples_of(start);
+    const Surface_fit first_fit(start_samples_, largest_first_residual());
     for (const Surface_type type : analytic_types) {
       const bool is_simplest = type == analytic_types.front();
       if (!is_simplest && start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + least_surplus)
         return;
-      Region region = region_of_type(type, seed, start);
+      Region region = region_of_type(type, seed, start, first_fit);
       if (region.gain > (best.gain > 0 ? noticeable_ratio * best.gain + noticeable_vertices : best.gain))
         best = std::move(region);
+      else if (!(region.gain > 0) && region.patch.faces.size() > farthest_.faces.size())
+        farthest_ = std::move(region.patch);
       const auto ends_at_sharp_edges = [&] { return patches_.faces_beside(best.patch).empty(); };
       if (is_simplest && best.gain >= least_gain && ends_at_sharp_edges()) return;
     }
   }
 
+  /// Of the surfaces that regions begin with. In a sheet all but exact ones are those of a free form; elsewhere they may
+  /// have begun across a border.
+  double largest_first_residual() const {
+    const bool is_strict = !tolerance_.is_noisy() && is_in_sheet_;
+    return is_strict ? exact * tolerance_.distance : tolerance_.largest_distance();
+  }
+
   /// The region of a surface of that type which begins as a given neighbourhood of the seed.
-  Region region_of_type(Surface_type type, Index seed, const Patch& start) {
+  /// \param first_fit to the samples of the neighbourhood
+  Region region_of_type(Surface_type type, Index seed, const Patch& start, const Surface_fit& first_fit) {
     constexpr int most_rounds = 30;
     // A surface is fitted again each time it has this many times the vertices, until it has grown by 2 % or less: one
     // that is flooded at once as far as a fit to few vertices leads goes astray.
@@ -180,8 +258,10 @@ class Surface_growing {
     constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
     const auto needed = static_cast<std::size_t>(degrees_of_freedom(type)) + 1;
     Region region;
+    constexpr std::size_t work_of_fit = 100;  // see `add_work()`
     if (start.vertices.size() < needed) return region;
-    auto surface = fit_analytic_surface(type, patches_.samples_of(start), tolerance_.largest_distance());
+    add_work(work_of_fit);
+    auto surface = first_fit.fit(type);
     if (!surface) return region;
     const Patch* last = &start;
     std::size_t last_size = start.vertices.size(), limit = first_growth * last_size;
@@ -195,7 +275,7 @@ class Surface_growing {
       limit = is_whole ? everything : growth * std::max(limit, size);
       last_size = size;
       surface = fitted_again(*surface, patches_.samples_of(region.patch));
-      if (!surface) return region;
+      if (!surface || (round > 0 && has_gone_astray(*surface))) return region;
     }
     region.surface = *surface;
     if (!is_piece_of_free_form(*surface)) region.gain = gain(region);
@@ -219,10 +299,10 @@ class Surface_growing {
   void flood(Index seed, const Analytic_surface& surface, double sign, std::size_t most_vertices, Patch& patch) {
     with_type_of(surface, [&](const auto& s) {
       const auto lies_on = [&](Index f) {
+        add_work(1);
         for (const Index v : mesh_.corners(f))
           if (!(std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance())) return false;
-        return normal(f).isZero() ||
-               sign * s.normal(mesh_.centroid(f)).dot(normal(f)) > std::cos(tolerance_.normal_angle[f]);
+        return normal(f).isZero() || sign * s.normal(mesh_.centroid(f)).dot(normal(f)) > least_cosine_[f];
       };
       patches_.flood(seed, lies_on, most_vertices, patch);
     });
@@ -231,8 +311,13 @@ class Surface_growing {
   /// A surface grown on a free form ends where the distance becomes too large; vertices of a true one are exact, unless
   /// there is noise.
   bool is_piece_of_free_form(const Analytic_surface& surface) const {
-    constexpr double exact = 1. / 3;  // of the expected deviation
     return !tolerance_.is_noisy() && surface.residual > exact * tolerance_.distance;
+  }
+
+  /// Whether a region that is still growing will be such a piece.
+  bool has_gone_astray(const Analytic_surface& surface) const {
+    constexpr double astray = 2. / 3;  // of the expected deviation; growing on mends less
+    return !tolerance_.is_noisy() && is_in_sheet_ && surface.residual > astray * tolerance_.distance;
   }
 
   /// The number of vertices explained, each the less the farther it is off, beyond those that determine the surface.
@@ -285,8 +370,45 @@ class Surface_growing {
     return seeds;
   }
 
-  /// Other faces of a region that gained too little would hardly gain more, the less the more of them were tried.
+  // ---- What failures teach ----
+
+  /// The neighbourhood that tells whether a seed is part of a sheet, and whether it has changed since it failed.
+  std::size_t size_about() const { return tolerance_.is_noisy() ? first_sizes()[1] : first_sizes().back(); }
+
+  /// Whether a neighbourhood is part of one smooth sheet that is meshed finely, far from its border.
+  bool is_part_of_sheet(const Patch& about) const {
+    // Between the faces there. At 25 degrees, coarse fillets of the CAD solids that benchmark_engineering measures are lost.
+    constexpr double clean_angle = radians(12), noisy_angle = radians(40);
+    const double angle = tolerance_.is_noisy() ? noisy_angle : clean_angle;
+    return about.vertices.size() >= size_about() &&
+           std::all_of(about.faces.begin(), end_of(about, part_about),
+                       [&](Index f) { return patches_.is_smooth_within(f, angle); });
+  }
+
+  /// Faces near a seed about which too little was gained are not tried.
   void expect_no_more(Index seed, const Region& region) {
+    constexpr double doubt = 1.3;  // how many times as much may be gained about another face
+    constexpr double part_of_farthest = 0.25;
+    if (tolerance_.is_noisy()) expect_no_more_of(seed, region);
+    if (!is_in_sheet_ || (tolerance_.is_noisy() && region.gain > 0)) return;
+    const double gain = doubt * std::max(region.gain, 0.);
+    expect_no_more_in(patches_.neighbourhood(seed, size_about()), part_about, gain);
+    if (!(region.gain > 0)) expect_no_more_in(farthest_, part_of_farthest, gain);
+  }
+
+  /// \param part of the faces, those that were reached first
+  void expect_no_more_in(const Patch& patch, double part, double gain) {
+    std::for_each(patch.faces.begin(), end_of(patch, part),
+                  [&](Index f) { possible_gain_[f] = std::min(possible_gain_[f], gain); });
+  }
+
+  /// The end of the faces of a patch that were reached first.
+  static std::vector<Index>::const_iterator end_of(const Patch& patch, double part) {
+    return patch.faces.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(patch.faces.size()));
+  }
+
+  /// Other faces of a region that gained too little would hardly gain more, the less the more of them were tried.
+  void expect_no_more_of(Index seed, const Region& region) {
     constexpr double first_doubt = 0.3;  // by how much more another face of the region may gain, as a part
     constexpr double next_doubt = 0.9;   // that each try leaves of the doubt
     const double hardly = 1 + first_doubt * std::pow(next_doubt, tries_[seed]);
@@ -298,6 +420,25 @@ class Surface_growing {
     }
   }
 
+  /// Where a region has been taken, neighbourhoods are others than before.
+  void expect_anything_beside(const Patch& taken) {
+    constexpr int rings = 3;  // of faces
+    if (tolerance_.is_noisy()) return;
+    std::vector<Index> ring = patches_.faces_beside(taken), next;
+    for (int i = 0; i < rings; ++i, ring.swap(next)) {
+      next.clear();
+      for (const Index f : ring) {
+        if (possible_gain_[f] == unknown_gain) continue;
+        possible_gain_[f] = unknown_gain;
+        for (const auto& [g, e] : mesh_.graph().neighbours(f))
+          if (patches_.is_free(g)) next.push_back(g);
+      }
+    }
+  }
+
+  static constexpr double exact = 1. / 3;    // of the expected deviation: vertices of clean surfaces are no farther off
+  static constexpr double part_about = 0.5;  // of the neighbourhood of a seed, what is as deep in a sheet as it is
+
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
   Face_patches patches_;
@@ -305,6 +446,13 @@ class Surface_growing {
   std::vector<Failure> failures_;      // by face, without noise
   std::vector<double> possible_gain_;  // of a region about each face, as far as is known
   std::vector<std::uint32_t> tries_;   // by face: regions with it that gained too little
+  std::vector<double> least_cosine_;   // by face, of the angle to its surface
+  Surface_samples start_samples_;      // of the present neighbourhood
+  bool is_in_sheet_ = false;           // the present seed
+  Patch farthest_;                     // the largest of the regions about it that explained nothing
+  Progress progress_;
+  double done_ = 0;  // of the present pass
+  std::size_t work_ = 0;
 };
 
 }  // namespace RW_segmentation::internal

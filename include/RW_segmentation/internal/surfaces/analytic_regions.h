@@ -22,7 +22,7 @@ namespace RW_segmentation::internal {
 inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                          const Progress& progress) {
   Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
-  Region_borders(mesh, tolerance, regions).settle();
+  Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
 }
 
@@ -69,7 +69,7 @@ inline Analytic_regions analytic_regions(const Dual_mesh& mesh, const Surface_to
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
   if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, progress);
   Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, progress);
-  Region_borders(mesh, tolerance, regions).settle();
+  Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
 }
 
