@@ -125,7 +125,8 @@ TEST_F(Faults, TransferThatRunsOutOfMemoryWritesNothing) {
 
 TEST_F(Faults, EngineeringSegmentationThatRunsOutOfMemoryWritesNothing) {
   const Surface_mesh strip = meshes::surface_mesh(meshes::folded_strip(2));
-  Face_labels<Surface_mesh> sides(strip);
+  Face_labels<Surface_mesh> sides(strip), planes(strip);
+  ASSERT_EQ(segmentation_into_surfaces(strip, planes.map()), 2U);
   for_every_allocation([&] { segmentation_into_surfaces(strip, sides.map()); },
                        [&] { ASSERT_EQ(sides.values()[0], sides.untouched); });
 }
