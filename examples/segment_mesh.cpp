@@ -23,11 +23,15 @@ namespace {
 
 using namespace segment_mesh;
 
-void list(const Json& report) {
+void list(const Json& segments) {
   std::printf("label     faces    area\n");
-  for (const Json& s : report["segments"])
+  for (const Json& s : segments)
     std::printf("%5zu %9zu %6.2f %%\n", s["label"].get<std::size_t>(), s["faces"].get<std::size_t>(),
                 100 * s["area_share"].get<double>());
+}
+
+/// Names the levels that people may prefer to the one that the shape suggests.
+void offer_other_levels(const Json& report) {
   std::string others;
   for (const auto& level : report.value("levels", std::vector<std::size_t>()))
     if (level != report["segments"].size()) others += (others.empty() ? "" : " or ") + std::to_string(level);
@@ -40,7 +44,9 @@ Exit_code run_one(const Task& task, const Options& options) {
     return success;
   }
   const Json report = run(task, options, "");
-  if (!options.is_quiet && !writes_to_standard_output(task.files)) list(report);
+  if (options.is_quiet || writes_to_standard_output(task.files)) return success;
+  list(report["segments"]);
+  if (!options.segments) offer_other_levels(report);
   return success;
 }
 

@@ -516,6 +516,11 @@ TEST_F(Segment_mesh_tool, OtherLevelsArePrintedAndReported) {
     if (level != suggested) others += (others.empty() ? "" : " or ") + std::to_string(level);
   EXPECT_NE(result.output.find("You may also try --segments " + others + ".\n"), std::string::npos) << result.output;
 
+  const Result asked = run({"tower.off", "--labels", "t.seg", "--report", "r.json", "--segments", "5"});
+  ASSERT_EQ(asked.exit_code, 0) << asked.errors;
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("r.json")))["levels"], report["levels"]);
+  EXPECT_EQ(asked.output.find("try"), std::string::npos) << "who asks for a number is offered no other";
+
   const Result seeded = run({"tower.off", "--labels", "t.seg", "--report", "r.json", "--seed", "0"});
   ASSERT_EQ(seeded.exit_code, 0) << seeded.errors;
   EXPECT_FALSE(nlohmann::json::parse(content_of(path("r.json"))).contains("levels")) << "seeds make no hierarchy";

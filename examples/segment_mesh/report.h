@@ -96,7 +96,7 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
                  {"version", version()}};
   for (const Segment& s : segments)
     report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
-  if (!result.fragment.empty()) report["levels"] = result.tree.levels(result.suggested);
+  if (!result.fragment.empty() && result.surfaces.empty()) report["levels"] = result.tree.levels(result.suggested);
   if (!result.surfaces.empty())
     for (Json& segment : report["segments"])
       segment["surface"] = surface_of(result.surfaces[segment["label"].get<std::size_t>()]);
