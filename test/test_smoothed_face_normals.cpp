@@ -249,7 +249,7 @@ struct Waves {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> phase(0, 2 * meshes::pi);
     for (std::size_t wave = 0; wave < 24; ++wave) {
-      const std::size_t around = random() % (2 << (wave / 4)), along = random() % (2 << (wave / 4));
+      const std::size_t most = std::size_t(2) << (wave / 4), around = random() % most, along = random() % most;
       const double turn = 2 * meshes::pi * static_cast<double>(around) / static_cast<double>(n), begin = phase(random);
       const double step = meshes::pi * static_cast<double>(along) / static_cast<double>(n);
       const double factor = 1 / (1 + weight * (4 - 2 * std::cos(turn) - 2 * std::cos(step)));
