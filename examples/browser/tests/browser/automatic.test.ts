@@ -32,9 +32,11 @@ test('the slider marks the numbers of parts that people may prefer', async ({ se
   const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
   const { levels, suggested } = answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
   expect(levels.length).toBeGreaterThan(1);
-  const marks = await page.locator('#levels option').evaluateAll((list) => list.map((o) => (o as HTMLOptionElement).value));
+  const marks = await page
+    .locator('#levels option')
+    .evaluateAll((list) => list.map((o) => (o as HTMLOptionElement).value));
   expect(marks).toEqual(Array.from(levels, String));
-  for (const parts of levels) await expect(page.locator('#level-remark')).toContainText(String(parts));
+  for (const parts of Array.from(levels)) await expect(page.locator('#level-remark')).toContainText(String(parts));
   expect(Array.from(levels)).toContain(suggested);
 });
 
