@@ -1,6 +1,17 @@
 import { bumpySphere, cube, offFile } from '../meshes';
 import { defaultPolicies } from '../../src/worker/calls';
-import { answer, engineWith, expect, test } from './fixture';
+import { answer, engineWith, expect, test, type SegmentationTester } from './fixture';
+
+/** Lets the page find the parts of a bumpy sphere, and the engine by itself. */
+async function partsOfBumps(segmentation: SegmentationTester) {
+  const mesh = bumpySphere(24);
+  await segmentation.openMesh('bumps.off', mesh);
+  await segmentation.page.click('#tab-automatic');
+  await segmentation.page.click('#compute');
+  await expect(segmentation.page.locator('#parts')).toBeVisible();
+  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+  return answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
+}
 
 test('the slider gives as many parts as it says, and the walk runs once', async ({ segmentation }) => {
   const { page } = segmentation;
@@ -24,13 +35,7 @@ test('the slider gives as many parts as it says, and the walk runs once', async 
 
 test('the slider marks the numbers of parts that people may prefer', async ({ segmentation }) => {
   const { page } = segmentation;
-  const mesh = bumpySphere(24);
-  await segmentation.openMesh('bumps.off', mesh);
-  await page.click('#tab-automatic');
-  await page.click('#compute');
-  await expect(page.locator('#parts')).toBeVisible();
-  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
-  const { levels, suggested } = answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
+  const { levels, suggested } = await partsOfBumps(segmentation);
   expect(levels.length).toBeGreaterThan(1);
   const marks = await page
     .locator('#levels option')
@@ -42,15 +47,7 @@ test('the slider marks the numbers of parts that people may prefer', async ({ se
 
 test('the parts are those that the engine finds', async ({ segmentation }) => {
   const { page } = segmentation;
-  const mesh = bumpySphere(24);
-  await segmentation.openMesh('bumps.off', mesh);
-  await page.click('#tab-automatic');
-  await page.click('#compute');
-  await expect(page.locator('#parts')).toBeVisible();
-  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
-  const { fragmentOfFace, fragments, suggested } = answer(
-    engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true),
-  );
+  const { fragmentOfFace, fragments, suggested } = await partsOfBumps(segmentation);
   expect(new Set(await segmentation.labels()).size).toBe(suggested);
   if (fragments <= 200) {
     await page.locator('#parts').fill(String(fragments));
