@@ -101,17 +101,11 @@ class Output_files {
   void commit(const Json& report) {
     if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
     for (mesh_files::Output_file& file : open_) file.flush();
-    is_committing = 1;
-    try {
-      for (mesh_files::Output_file& file : open_) file.commit();
-    } catch (...) {
-      is_committing = 0;
-      throw;
-    }
+    const Committing guard;
+    for (mesh_files::Output_file& file : open_) file.commit();
     if (split_) split_->keep();
     open_.clear();
     split_.reset();
-    is_committing = 0;
   }
 
  private:

@@ -19,6 +19,14 @@ inline volatile std::sig_atomic_t is_interrupted = 0;
 /// Whether files are getting their names, all or none of them.
 inline volatile std::sig_atomic_t is_committing = 0;
 
+/// While it lives, files are getting their names.
+struct Committing {
+  Committing() { is_committing = 1; }
+  Committing(const Committing&) = delete;
+  Committing& operator=(const Committing&) = delete;
+  ~Committing() { is_committing = 0; }
+};
+
 constexpr std::string_view cancelled_message = "cancelled, nothing was written";
 
 /// Ends the program and leaves no file behind that is not complete.

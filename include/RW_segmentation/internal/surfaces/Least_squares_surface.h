@@ -34,7 +34,7 @@ class Least_squares_surface {
   Least_squares_surface(const Type& surface, const std::vector<Eigen::Vector3d>& points,
                         double largest_residual = std::numeric_limits<double>::infinity())
       : surface_(surface), points_(points), sum_(squared_distances(surface, points)) {
-    hopeless_squares_ = out_of_reach * out_of_reach * largest_residual * largest_residual * number_of_points();
+    largest_squares_ = largest_residual * largest_residual * number_of_points();
     if constexpr (!Type::first_guess_is_closest) fit();
   }
 
@@ -43,8 +43,6 @@ class Least_squares_surface {
   double residual() const { return std::sqrt(sum_ / number_of_points()); }
 
  private:
-  static constexpr double out_of_reach =
-      10;  // largest residuals: linearised steps shrink residuals by less when they fail
   static constexpr int unknowns = Type::degrees_of_freedom;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
   using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
@@ -55,12 +53,11 @@ class Least_squares_surface {
     constexpr int most_steps = 20;
     constexpr double least_progress = 1e-3;  // of a step, as a part of the squares
     constexpr double least_far_off = 2e-2;   // likewise, of one beyond the largest residual: 20 such steps gain a third
-    const double largest = hopeless_squares_ / (out_of_reach * out_of_reach);
     // Residuals below a ten-billionth of the mesh: nothing is left to gain.
     const double exact = 1e-20 * number_of_points();
     for (int step = 0; step < most_steps && sum_ > exact; ++step) {
       const double before = sum_;
-      if (!descend() || before - sum_ < (sum_ > largest ? least_far_off : least_progress) * before) break;
+      if (!descend() || before - sum_ < (sum_ > largest_squares_ ? least_far_off : least_progress) * before) break;
     }
   }
 
@@ -69,6 +66,8 @@ class Least_squares_surface {
   bool descend() {
     constexpr int most_trials = 4;
     constexpr double damping_factor = 10, hardly_less = 0.8;
+    constexpr double out_of_reach = 10;  // largest residuals: linearised steps shrink residuals by less when they fail
+    const double hopeless_squares = out_of_reach * out_of_reach * largest_squares_;
     constexpr double determined = 1e-12;  // of the largest diagonal element, lest flat points make the matrix singular
     const typename Type::Frame frame(surface_);
     linearise(frame);
@@ -78,7 +77,7 @@ class Least_squares_surface {
       damped.diagonal() *= 1 + damping_;
       damped.diagonal().array() += determined * largest;
       const Vector step = damped.template selfadjointView<Eigen::Lower>().ldlt().solve(-gradient_);
-      if (const double linear = squares_after(step); linear > hopeless_squares_ && linear > hardly_less * sum_)
+      if (const double linear = squares_after(step); linear > hopeless_squares && linear > hardly_less * sum_)
         return false;
       const Type moved = surface_.moved(step, frame);
       const double squares_there = squared_distances(moved, points_);
@@ -113,9 +112,9 @@ class Least_squares_surface {
 
   Type surface_;
   const std::vector<Eigen::Vector3d>& points_;
-  double sum_;  // of the squared distances
-  double hopeless_squares_;
-  Matrix hessian_;  // its lower half
+  double sum_;              // of the squared distances
+  double largest_squares_;  // that are of use
+  Matrix hessian_;          // its lower half
   Vector gradient_;
   double damping_ = 1e-4;  // of the first step, as a part of the diagonal: all but none
 };
