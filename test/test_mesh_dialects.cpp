@@ -4,9 +4,9 @@
 
 #include "../examples/mesh_files.h"
 
-#include <gtest/gtest.h>
+#include "mesh_bytes.h"
 
-#include <boost/endian/conversion.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -22,30 +22,11 @@
 
 namespace {
 
+using namespace mesh_bytes;
 using mesh_files::Polygon_soup;
-using Point = Polygon_soup::Point;
-using Order = boost::endian::order;
-using Faces = std::vector<std::vector<std::size_t>>;
 using Triangle = std::array<Point, 3>;
 
 const std::string byte_order_mark = "\xef\xbb\xbf";
-
-template <class Value>
-std::string bytes(std::initializer_list<Value> values, Order order = Order::little) {
-  std::string result;
-  for (const Value value : values) {
-    std::array<unsigned char, sizeof(Value)> b;
-    if (order == Order::little)
-      boost::endian::endian_store<Value, sizeof(Value), Order::little>(b.data(), value);
-    else
-      boost::endian::endian_store<Value, sizeof(Value), Order::big>(b.data(), value);
-    result.append(b.begin(), b.end());
-  }
-  return result;
-}
-
-const std::vector<Point> tetrahedron_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
-const Faces tetrahedron_faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 /// The triangles by their corners' places, each from its lowest corner on.
 std::vector<Triangle> triangles_of(const Polygon_soup& soup) {

@@ -8,6 +8,8 @@
 #include "../examples/segment_mesh/seeds.h"
 #include "../examples/segment_mesh/segment_colors.h"
 
+#include "mesh_bytes.h"
+
 #include <gtest/gtest.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
@@ -51,14 +53,16 @@ std::atomic<std::size_t> largest_allocation = 0;
 
 namespace {
 
+using mesh_bytes::bytes;
+using mesh_bytes::Faces;
+using mesh_bytes::Order;
+using mesh_bytes::tetrahedron_faces;
+using mesh_bytes::tetrahedron_points;
 using mesh_files::Polygon_soup;
 using segment_mesh::Mesh;
 using segment_mesh::oriented_mesh;
 using segment_mesh::Oriented_mesh;
 using segment_mesh::Point;
-using Order = boost::endian::order;
-
-using Faces = std::vector<std::vector<std::size_t>>;
 
 Faces faces_of(const Polygon_soup& soup) {
   Faces faces;
@@ -100,24 +104,7 @@ class File_test : public testing::Test {
       std::filesystem::temp_directory_path() / ("rw_" + std::to_string(std::random_device()()));
 };
 
-template <class Value>
-std::string bytes(std::initializer_list<Value> values, Order order) {
-  std::string result;
-  for (const Value value : values) {
-    std::array<unsigned char, sizeof(Value)> b;
-    if (order == Order::little)
-      boost::endian::endian_store<Value, sizeof(Value), Order::little>(b.data(), value);
-    else
-      boost::endian::endian_store<Value, sizeof(Value), Order::big>(b.data(), value);
-    result.append(b.begin(), b.end());
-  }
-  return result;
-}
-
 // ---- Reading ----
-
-const std::vector<Point> tetrahedron_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
-const Faces tetrahedron_faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 std::string binary_ply_tetrahedron(Order order) {
   std::string file = "ply\nformat binary_" + std::string(order == Order::little ? "little" : "big") +
