@@ -4,11 +4,6 @@
 #define RW_SEGMENTATION_ANALYTIC_SURFACE_H
 
 #include <RW_segmentation/Surface_samples.h>
-#include <RW_segmentation/internal/surfaces/Cone.h>
-#include <RW_segmentation/internal/surfaces/Cylinder.h>
-#include <RW_segmentation/internal/surfaces/Plane.h>
-#include <RW_segmentation/internal/surfaces/Sphere.h>
-#include <RW_segmentation/internal/surfaces/Torus.h>
 
 #include <Eigen/Core>
 
@@ -16,8 +11,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,40 +28,6 @@ enum class Surface_type {
 
 namespace internal {
 
-/// The types that can be fitted, in the order of `Surface_type`, the simplest first. Another type of surface is a file
-/// of its own, its name in `Surface_type`, its place here, and its numbers in `Analytic_surface` if no other type has
-/// them.
-///
-/// A type is a struct with
-/// - `name`, and `degrees_of_freedom`: how many numbers determine such a surface;
-/// - `point` and `direction`, and `numbers(surface)`, the numbers of the shape, in the struct itself and in an
-///   `Analytic_surface`; `prepare()` is called when they have changed;
-/// - `distance(p)`, signed, and `normal(p)`, the gradient of it;
-/// - `first_guesses(samples)`, surfaces not far from `Scaled_samples`; `first_guess_is_closest` says that they are the
-///   closest ones in the sense of least squares already;
-/// - `derivatives(p, frame, row)`, unless they are: writes the derivatives of the distance by as many unknowns as there
-///   are degrees of freedom, and returns the distance; `moved(step, frame)`, the surface after a step in these unknowns;
-///   `Frame(surface)`, what the unknowns refer to;
-/// - `is_sound(samples)`: whether the samples tell it from a simpler surface.
-using Surface_types = std::tuple<Plane, Sphere, Cylinder, Cone, Torus>;
-static_assert(std::tuple_size_v<Surface_types> == static_cast<std::size_t>(Surface_type::free_form),
-              "Surface_type and Surface_types list the same types in the same order.");
-
-/// A type as an argument.
-template <class T>
-struct Type_tag {
-  using type = T;
-};
-
-/// Calls a function with the `Type_tag` of a type of surface.
-/// \pre the type is no free form
-template <std::size_t First = 0, class Function>
-constexpr auto with_type(Surface_type type, const Function& function) {
-  if constexpr (First + 1 < std::tuple_size_v<Surface_types>)
-    if (type != static_cast<Surface_type>(First)) return with_type<First + 1>(type, function);
-  return function(Type_tag<std::tuple_element_t<First, Surface_types>>());
-}
-
 template <std::size_t... Types>
 constexpr auto all_types(std::index_sequence<Types...>) {
   return std::array<Surface_type, sizeof...(Types)>{static_cast<Surface_type>(Types)...};
@@ -78,19 +37,13 @@ constexpr auto all_types(std::index_sequence<Types...>) {
 
 /// The types that can be fitted, the simplest first.
 constexpr auto analytic_types =
-    internal::all_types(std::make_index_sequence<std::tuple_size_v<internal::Surface_types>>());
+    internal::all_types(std::make_index_sequence<static_cast<std::size_t>(Surface_type::free_form)>());
 
 /// How many numbers determine a surface of that type; 0 for a free form.
-constexpr int degrees_of_freedom(Surface_type type) {
-  if (type == Surface_type::free_form) return 0;
-  return internal::with_type(type, [](auto tag) { return decltype(tag)::type::degrees_of_freedom; });
-}
+int degrees_of_freedom(Surface_type type);
 
 /// A type in words: "plane", "cylinder", ..., "free form".
-constexpr const char* name_of(Surface_type type) {
-  if (type == Surface_type::free_form) return "free form";
-  return internal::with_type(type, [](auto tag) { return decltype(tag)::type::name; });
-}
+const char* name_of(Surface_type type);
 
 /// An unbounded plane, sphere, cylinder, cone or torus. A free form has none of the numbers.
 struct Analytic_surface {
@@ -112,24 +65,6 @@ struct Analytic_surface {
   /// \pre the surface is no free form
   Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
 };
-
-namespace internal {
-
-/// Calls a function with the struct of a surface's type. Cheaper than `Analytic_surface` for many points.
-/// \pre the surface is no free form
-template <class Function>
-auto with_type_of(const Analytic_surface& surface, const Function& function) {
-  return with_type(surface.type, [&](auto tag) {
-    typename decltype(tag)::type typed;
-    typed.point = surface.point;
-    typed.direction = surface.direction;
-    typed.numbers(typed) = typed.numbers(surface);
-    typed.prepare();
-    return function(std::as_const(typed));
-  });
-}
-
-}  // namespace internal
 
 /// The root mean square distance of points from a surface.
 /// \pre the surface is no free form

@@ -6,11 +6,22 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
+#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace RW_segmentation {
+
+RW_SEGMENTATION_INLINE int degrees_of_freedom(Surface_type type) {
+  if (type == Surface_type::free_form) return 0;
+  return internal::with_type(type, [](auto tag) { return decltype(tag)::type::degrees_of_freedom; });
+}
+
+RW_SEGMENTATION_INLINE const char* name_of(Surface_type type) {
+  if (type == Surface_type::free_form) return "free form";
+  return internal::with_type(type, [](auto tag) { return decltype(tag)::type::name; });
+}
 
 RW_SEGMENTATION_INLINE double Analytic_surface::signed_distance(const Eigen::Vector3d& p) const {
   return internal::with_type_of(*this, [&](const auto& surface) { return surface.distance(p); });

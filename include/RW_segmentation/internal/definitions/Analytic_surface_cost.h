@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
+#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,7 @@
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_growing.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <algorithm>
 #include <cmath>

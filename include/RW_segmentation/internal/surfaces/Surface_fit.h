@@ -7,6 +7,7 @@
 #include <RW_segmentation/Surface_samples.h>
 #include <RW_segmentation/internal/surfaces/Least_squares_surface.h>
 #include <RW_segmentation/internal/surfaces/Scaled_samples.h>
+#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <Eigen/Core>
 

@@ -9,6 +9,7 @@
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <boost/container_hash/hash.hpp>
 
