@@ -106,14 +106,20 @@ class Balls {
 
 Moments moments(const meshes::Shape& shape, std::size_t face, double radius) { return Balls(shape)(face, radius); }
 
+/// The integral of f, which adds its value times a weight to a sum.
 template <class Function>
-Moments gauss(const Function& f, double begin, double end) {
+void add_gauss(const Function& f, double begin, double end, double weight, Moments& sum) {
   using Rule = boost::math::quadrature::gauss<double, 20>;
-  Moments sum = Moments::Zero();
+  const double half = (end - begin) / 2;
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
     for (const double side : {-1., 1.})
-      sum += Rule::weights()[i] * (end - begin) / 2 *
-             f((begin + end) / 2 + side * (end - begin) / 2 * Rule::abscissa()[i]);
+      f((begin + end) / 2 + side * half * Rule::abscissa()[i], weight * half * Rule::weights()[i], sum);
+}
+
+template <class Function>
+Moments gauss(const Function& f, double begin, double end) {
+  Moments sum = Moments::Zero();
+  add_gauss(f, begin, end, 1, sum);
   return sum;
 }
 
@@ -126,21 +132,44 @@ Moments adaptive_gauss(const Function& f, double begin, double end, const Moment
   return adaptive_gauss(f, begin, middle, left, depth - 1) + adaptive_gauss(f, middle, end, right, depth - 1);
 }
 
+/// Adds the moments of a thin cone about a ray of a length along a unit vector. Plain numbers, since it is called
+/// millions of times, and builds with sanitizers call every function of a vector.
+void add_ray(double solid_angle, const std::array<double, 3>& w, double length, Moments& sum) {
+  const double volume = solid_angle * length * length * length / 3;
+  const double first = volume * 3 / 4 * length, second = volume * 3 / 5 * length * length;
+  const std::array<double, 10> ray = {volume,
+                                      first * w[0],
+                                      first * w[1],
+                                      first * w[2],
+                                      second * w[0] * w[0],
+                                      second * w[1] * w[1],
+                                      second * w[2] * w[2],
+                                      second * w[0] * w[1],
+                                      second * w[0] * w[2],
+                                      second * w[1] * w[2]};
+  double* const moments = sum.data();
+  for (std::size_t i = 0; i < 10; ++i) moments[i] += ray[i];
+}
+
 /// The moments of a convex solid in the unit ball, along rays from the origin: a ray ends on the sphere or on the first
 /// plane n.x = h that it meets. The origin lies in the first plane. No formula here is used by what is tested.
 Moments quadrature(const std::vector<std::pair<Vector3d, double>>& planes) {
   const Vector3d axis = -planes.front().first, u = axis.unitOrthogonal(), v = axis.cross(u);
-  const auto ray_end = [&](const Vector3d& w) {
+  std::vector<std::array<double, 4>> ends;  // of rays: n and h
+  for (std::size_t i = 1; i < planes.size(); ++i) {
+    const auto& [n, h] = planes[i];
+    ends.push_back({n.x(), n.y(), n.z(), h});
+  }
+  const auto ray_end = [&](const std::array<double, 3>& w) {
     double end = 1;
-    for (std::size_t i = 1; i < planes.size(); ++i) {
-      const double slope = planes[i].first.dot(w);
-      if (slope > 0) end = std::min(end, planes[i].second / slope);
+    for (const std::array<double, 4>& plane : ends) {
+      const double slope = plane[0] * w[0] + plane[1] * w[1] + plane[2] * w[2];
+      if (slope > 0) end = std::min(end, plane[3] / slope);
     }
     return end;
   };
-  const auto along_meridian = [&](double azimuth) -> Moments {
+  const auto along_meridian = [&](double azimuth, double weight, Moments& sum) {
     const Vector3d side = std::cos(azimuth) * u + std::sin(azimuth) * v;
-    const auto direction = [&](double polar) -> Vector3d { return std::cos(polar) * axis + std::sin(polar) * side; };
     // Where the ray's end passes from a plane to the sphere or to another plane, the integrand has a kink.
     std::vector<double> kinks = {0, pi / 2};
     const auto add_roots = [&](const Vector3d& n, double h) {  // of n.w = h
@@ -158,14 +187,13 @@ Moments quadrature(const std::vector<std::pair<Vector3d, double>>& planes) {
         add_roots(planes[i].second * planes[j].first - planes[j].second * planes[i].first, 0);
     }
     std::sort(kinks.begin(), kinks.end());
-    const auto along_ray = [&](double polar) -> Moments {
-      const Vector3d w = direction(polar);
-      const double t = ray_end(w), t3 = t * t * t;
-      return std::sin(polar) * as_vector(t3 / 3, t3 * t / 4 * w, t3 * t * t / 5 * w * w.transpose());
+    const std::array<double, 3> up = {axis.x(), axis.y(), axis.z()}, aside = {side.x(), side.y(), side.z()};
+    const auto along_ray = [&](double polar, double ray_weight, Moments& rays) {
+      const double c = std::cos(polar), s = std::sin(polar);
+      const std::array<double, 3> w = {c * up[0] + s * aside[0], c * up[1] + s * aside[1], c * up[2] + s * aside[2]};
+      add_ray(s * ray_weight, w, ray_end(w), rays);
     };
-    Moments sum = Moments::Zero();
-    for (std::size_t i = 0; i + 1 < kinks.size(); ++i) sum += gauss(along_ray, kinks[i], kinks[i + 1]);
-    return sum;
+    for (std::size_t i = 0; i + 1 < kinks.size(); ++i) add_gauss(along_ray, kinks[i], kinks[i + 1], weight, sum);
   };
   return adaptive_gauss(along_meridian, 0, 2 * pi, Moments::Constant(infinity));
 }

@@ -324,7 +324,7 @@ TEST(ThicknessOfAllFaces, DoesNotDependOnThreads) {
 }
 
 TEST(ThicknessOfAllFaces, AgreesWithTheShapeDiametersOfCgal) {
-  for (const char* name : {"elephant.off", "hand.off"}) {
+  for (const char* name : {"hand.off", "cactus.off"}) {
     const auto mesh = meshes::data_mesh(name);
     if (!mesh) GTEST_SKIP() << "CGAL's data meshes are not installed";
     std::map<meshes::Surface_mesh::Face_index, double> diameter;

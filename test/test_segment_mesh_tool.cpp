@@ -951,7 +951,7 @@ TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
 
 TEST_F(Segment_mesh_tool, CtrlCKeepsTheMeshesThatAreDone) {
   write("first.off", strip(3));
-  write("second.off", grid(500));
+  write("second.off", grid(300));
   const pid_t process = start({"first.off", "second.off", "--labels", "%.seg", "--report", "all.jsonl", "--seed", "0"});
   const auto is_at_second = [&] {
     for (const auto& [name, content] : files())
@@ -1044,8 +1044,8 @@ TEST_F(Segment_mesh_tool, AnOutputThatCannotBeWrittenIsCodeFive) {
 }
 
 TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
-  write("grid.off", grid(500));  // keeps it busy for a while
-  const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "200000"});
+  write("grid.off", grid(300));  // keeps it busy for a while
+  const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "100000"});
   // The outputs are created, under other names, before the work begins.
   const auto is_at_work = [&] { return std::distance(std::filesystem::directory_iterator(path("")), {}) > 1; };
   for (int i = 0; i < 60000 && !is_at_work(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -1060,7 +1060,7 @@ TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
 // ---- What ends it early ----
 
 TEST_F(Segment_mesh_tool, KilledAtAnyMomentItLeavesTheOldOutputOrTheNewOne) {
-  write("grid.off", grid(100));
+  write("grid.off", grid(75));
   const std::vector<std::string> outputs = {"out.ply", "out.seg", "out.obj"},
                                  task = {"grid.off", "--output", outputs[0], "--labels",    outputs[1], "--output",
                                          outputs[2], "--seed",   "0",        "--smoothing", "0",        "--quiet"};
@@ -1079,7 +1079,7 @@ TEST_F(Segment_mesh_tool, KilledAtAnyMomentItLeavesTheOldOutputOrTheNewOne) {
     return false;
   };
   std::mt19937 random(1);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 20; ++round) {
     for (const auto& [name, content] : old) write(name, content);
     const pid_t process = start(new_task);
     if (round % 2 == 0)

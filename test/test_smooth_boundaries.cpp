@@ -434,7 +434,7 @@ TEST(SmoothBoundaries, GeodesicsAreNoLongerThanTracedLines) {
     return nodes;
   };
   for (const double noise : {0.02, 0.1, 0.3}) {
-    const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), noise);
+    const Shape shape = meshes::with_noise(meshes::torus(2, 1, 28, 16), noise);
     const Surface_mesh mesh = meshes::surface_mesh(shape);
     Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 12));
     const auto report = sum_of_reports(smooth_boundaries(mesh, ids.map(), {}, compare));

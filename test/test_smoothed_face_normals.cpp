@@ -12,7 +12,8 @@
 
 #include <boost/property_map/function_property_map.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -84,43 +86,46 @@ struct Triangles {
 };
 
 /// The solution of (diag(A) + (radius R)^2 Lap) N = diag(A) N0, densely, with more digits and by an elimination that
-/// never subtracts: masses keep their digits beside weights of any size.
+/// never subtracts: masses keep their digits beside weights of any size. Plain arrays, since builds with sanitizers call
+/// every function of a matrix.
 Normals dense_solution(const Triangles& t, double radius) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  const auto n = static_cast<Eigen::Index>(t.area.size());
+  const std::size_t n = t.area.size();
   const double mean = t.total_area / static_cast<double>(n);
-  Matrix weights = Matrix::Zero(n, n), solution(n, 3);
-  Vector mass(n), diagonal(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto f = static_cast<std::size_t>(i);
-    mass(i) = std::max(t.area[f], 1e-4 * mean);
-    solution.row(i) = mass(i) * t.normal[f].cast<long double>().transpose();
+  std::vector<std::vector<long double>> weights(n, std::vector<long double>(n, 0));
+  std::vector<std::array<long double, 3>> solution(n);
+  std::vector<long double> mass(n), diagonal(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    mass[i] = std::max(t.area[i], 1e-4 * mean);
+    for (std::size_t x = 0; x < 3; ++x) solution[i][x] = mass[i] * t.normal[i][static_cast<Eigen::Index>(x)];
   }
   for (std::size_t e = 0; e < t.length.size(); ++e) {
-    const auto i = static_cast<Eigen::Index>(t.neighbours[e][0]), j = static_cast<Eigen::Index>(t.neighbours[e][1]);
-    const double areas = t.area[t.neighbours[e][0]] + t.area[t.neighbours[e][1]];
+    const auto [i, j] = t.neighbours[e];
+    const double areas = t.area[i] + t.area[j];
     const double distance = std::max(2. / 3 * areas, 1e-4 * mean) / std::max(t.length[e], 1e-4 * std::sqrt(mean));
     const long double weight = radius * radius * t.total_area * t.length[e] / distance;
-    weights(i, j) += weight;
-    weights(j, i) += weight;
+    weights[i][j] += weight;
+    weights[j][i] += weight;
   }
-  for (Eigen::Index i = 0; i < n; ++i) {  // what i says goes to the rest of its neighbours
-    const Eigen::Index rest = n - i - 1;
-    const Vector links = weights.col(i).tail(rest);
-    diagonal(i) = mass(i) + links.sum();
-    const Vector share = links / diagonal(i);
-    mass.tail(rest) += share * mass(i);
-    solution.bottomRows(rest) += share * solution.row(i);
-    weights.bottomRightCorner(rest, rest) += share * links.transpose();  // its diagonal is never read
+  for (std::size_t i = 0; i < n; ++i) {  // what i says goes to the rest of its neighbours
+    const long double* const link = weights[i].data();
+    diagonal[i] = std::accumulate(link + i + 1, link + n, mass[i]);
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (link[j] == 0) continue;
+      const long double share = link[j] / diagonal[i];
+      mass[j] += share * mass[i];
+      for (std::size_t x = 0; x < 3; ++x) solution[j][x] += share * solution[i][x];
+      long double* const row = weights[j].data();
+      for (std::size_t k = j + 1; k < n; ++k) row[k] += share * link[k];  // those above the diagonal are read
+    }
   }
-  for (Eigen::Index i = n; i-- > 0;) {
-    const Eigen::Index rest = n - i - 1;
-    solution.row(i) += weights.col(i).tail(rest).transpose() * solution.bottomRows(rest);
-    solution.row(i) /= diagonal(i);
-  }
+  for (std::size_t i = n; i-- > 0;)
+    for (std::size_t x = 0; x < 3; ++x) {
+      for (std::size_t j = i + 1; j < n; ++j) solution[i][x] += weights[i][j] * solution[j][x];
+      solution[i][x] /= diagonal[i];
+    }
   Normals result;
-  for (Eigen::Index i = 0; i < n; ++i) result.push_back(solution.row(i).cast<double>().transpose());
+  for (const auto& [x, y, z] : solution)
+    result.emplace_back(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
   return result;
 }
 
