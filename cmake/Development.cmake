@@ -89,3 +89,17 @@ else()
   message(STATUS "CGAL's data meshes: not found, tests on them are skipped. "
     "Install libcgal-demo or give RW_SEGMENTATION_DATA_DIR.")
 endif()
+
+# One precompiled header for examples and benchmark programs, where there are both. Where there are examples alone, they
+# show that each includes what it uses.
+if(RW_SEGMENTATION_BUILD_BENCHMARK)
+  file(CONFIGURE OUTPUT precompiled_header.cpp CONTENT "")
+  add_library(program_precompiled_header OBJECT ${PROJECT_BINARY_DIR}/precompiled_header.cpp)
+  target_link_libraries(program_precompiled_header PRIVATE RW_segmentation_development)
+  target_precompile_headers(program_precompiled_header PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.h)
+endif()
+function(use_precompiled_header program)
+  if(TARGET program_precompiled_header)
+    target_precompile_headers(${program} REUSE_FROM program_precompiled_header)
+  endif()
+endfunction()

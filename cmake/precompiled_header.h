@@ -1,0 +1,30 @@
+// What most examples and benchmark programs include and what takes long to parse. A program includes what it uses all the
+// same.
+#include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <boost/property_map/function_property_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#ifdef RW_SEGMENTATION_WITH_CLI11
+#include <CLI/CLI.hpp>
+#endif
