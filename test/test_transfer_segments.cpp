@@ -241,6 +241,17 @@ TEST(TransferSegments, ABoundaryDoesNotMoveOverConstrainedEdges) {
   EXPECT_EQ(result.values(), ids);
 }
 
+TEST(TransferSegments, DoesNotDependOnThreads) {
+  const Mesh reduced = meshes::surface_mesh(meshes::sphere(3)), full = meshes::surface_mesh(meshes::sphere(4));
+  auto ids =
+      labelled(reduced, [](const Eigen::Vector3d& p) { return std::size_t(p.x() > 0) + 2 * std::size_t(p.y() > 0); });
+  Face_labels<Mesh> with_one(full), with_all(full);
+  transfer_segments<CGAL::Sequential_tag>(reduced, ids.map(), full, even_conductance(), with_one.map());
+  transfer_segments<CGAL::Parallel_if_available_tag>(reduced, ids.map(), full, even_conductance(), with_all.map());
+  EXPECT_EQ(with_one.values(), with_all.values());
+  EXPECT_EQ(std::set<std::size_t>(with_one.values().begin(), with_one.values().end()).size(), 4u);
+}
+
 TEST(TransferSegments, WithoutAFaceToTakeIdsFromNothingIsWritten) {
   const Mesh mesh = meshes::surface_mesh(meshes::sphere(1)), empty;
   Face_labels<Mesh> ids(empty), result(mesh);

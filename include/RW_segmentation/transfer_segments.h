@@ -6,10 +6,12 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/walk/read_conductances.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -43,6 +45,7 @@ std::vector<std::size_t> transferred(const Dual_mesh& reduced, const std::vector
 /// For large meshes `segmentation_via_random_walks()` reduces the walk by itself, which is faster than to make a reduced
 /// mesh.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam ReducedMesh a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam ReducedIdMap a readable property map from its face descriptors to an integer
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
@@ -65,7 +68,8 @@ std::vector<std::size_t> transferred(const Dual_mesh& reduced, const std::vector
 /// \throws Cancelled; nothing is written then
 ///
 /// Complexity: O(m log n) for m faces and n of the reduced mesh, and that of the walk on the bands.
-template <class ReducedMesh, class ReducedIdMap, class FaceListGraph, class ConductanceMap, class SegmentIdMap,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class ReducedMesh, class ReducedIdMap,
+          class FaceListGraph, class ConductanceMap, class SegmentIdMap,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class ReducedNamedParameters = CGAL::parameters::Default_named_parameters>
 std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& reduced_ids, const FaceListGraph& mesh,
@@ -87,17 +91,19 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
   static_assert(internal::has_only<ReducedNamedParameters, internal::Vertex_point, internal::Edge_is_constrained>,
                 "transfer_segments() takes the named parameters vertex_point_map and edge_is_constrained_map of the "
                 "reduced mesh.");
-  const Progress progress = internal::progress_of(np);
-  progress(0);
-  const auto& full = internal::dual_mesh(mesh, np);
-  const std::vector<double> conductances = internal::read_conductances(full, conductance);
-  const auto& coarse = internal::dual_mesh(reduced, reduced_np);
-  const auto ids = coarse.read_faces(reduced_ids, [](const auto& id) { return static_cast<std::size_t>(id); });
-  const auto transferred = internal::transferred(coarse, ids, full, conductances, band, progress);
-  // What may run out of memory comes before the first id is written.
-  const std::size_t segments = std::set<std::size_t>(transferred.begin(), transferred.end()).size();
-  full.write_faces(std::vector<Id>(transferred.begin(), transferred.end()), segment_ids);
-  return segments;
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const Progress progress = internal::progress_of(np);
+    progress(0);
+    const auto& full = internal::dual_mesh(mesh, np);
+    const std::vector<double> conductances = internal::read_conductances(full, conductance);
+    const auto& coarse = internal::dual_mesh(reduced, reduced_np);
+    const auto ids = coarse.read_faces(reduced_ids, [](const auto& id) { return static_cast<std::size_t>(id); });
+    const auto transferred = internal::transferred(coarse, ids, full, conductances, band, progress);
+    // What may run out of memory comes before the first id is written.
+    const std::size_t segments = std::set<std::size_t>(transferred.begin(), transferred.end()).size();
+    full.write_faces(std::vector<Id>(transferred.begin(), transferred.end()), segment_ids);
+    return segments;
+  });
 }
 
 }  // namespace RW_segmentation
