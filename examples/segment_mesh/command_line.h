@@ -166,7 +166,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
   add_number(app, "--sigma", options.sigma, finite_positive, "The difference that stops a walk; 1 is an average edge")
       ->option_text("NUMBER")
       ->group("Walk");
-  add_number(app, "--cap", options.cap, positive, "The largest difference / sigma that counts, or inf")
+  add_number(app, "--cap", options.cap, positive,
+             "The largest difference / sigma that counts, or inf; what closes parts is --cap-parts")
       ->option_text("NUMBER")
       ->group("Walk");
 
@@ -233,6 +234,11 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--split", options.files.split,
                  "One mesh for each segment, in a new or empty folder: segment_LABEL.ply, or as --output-format tells")
       ->option_text("FOLDER")
+      ->group("Output");
+  app.add_flag(
+         "--cap-parts", options.are_parts_closed,
+         "Close the parts of --split, and the objects of .3mf files, where they were cut from each other, so that\n"
+         "they are solids. They are parts of the mesh after repair; --report tells their volumes.")
       ->group("Output");
   app.add_option("--probabilities", options.files.probabilities,
                  "One line for each face, one column for each label; the first line names the labels; or .npz, or .csv")

@@ -7,6 +7,7 @@
 #include "Method.h"
 #include "Options.h"
 #include "Segmentation.h"
+#include "close_parts.h"
 #include "segments.h"
 
 #include <RW_segmentation/Analytic_surface.h>
@@ -73,6 +74,16 @@ inline Json parameters_of(const Options& options, const Method& method) {
   parameters["solver"] = name_of(solver_names, method.solver);
   if (options.merges()) parameters["merge_cost"] = name_of(merge_cost_names, method.merge_cost);
   return parameters;
+}
+
+/// Adds what closing the parts has come to.
+inline void add_closed_parts(Json& report, const Closed_parts& closed) {
+  for (Json& segment : report["segments"]) {
+    const Closed_part& part = closed.parts.at(segment["label"].get<std::size_t>());
+    segment["caps"] = part.caps;
+    segment["closed"] = part.is_closed;
+    if (part.is_closed) segment["volume"] = part.volume;
+  }
 }
 
 /// \param left_out_faces how many faces of the file the mesh lacks; they count in the segments whose labels they get

@@ -11,6 +11,7 @@
 #include "Segmentation.h"
 #include "Stages.h"
 #include "Task.h"
+#include "close_parts.h"
 #include "limits.h"
 #include "report.h"
 #include "seeds.h"
@@ -25,6 +26,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -159,17 +161,24 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   Segmentation result = segment(input.mesh, walls, seeds, options, method, stages);
   treat_boundaries(options, soup, input, walls, result, stages, files);
 
+  std::optional<Closed_parts> closed;
+  if (options.are_parts_closed) {
+    stages.start("caps");
+    closed = closed_parts(input.mesh, result.label);
+  }
   stages.start("writing");
   const std::vector<Segment> all_segments = segments_of(input.mesh, result.label);
   const auto faces = faces_in_file_order(soup, input);
   const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
-  files.write(soup, faces, result, segments);
+  files.write(soup, closed ? &*closed : nullptr, faces, result, segments);
   files.write_left_out(left_out);
   files.write_page(task.mesh, input.mesh, result, all_segments.size());
   stages.end();
   Json report = report_of(task.mesh, soup, input.remarks, left_out.size(), parameters_of(options, method), result,
                           segments, stages.milliseconds());
+  if (closed) add_closed_parts(report, *closed);
   files.commit(report);
+  if (closed) remark(closed->remarks);
   remark(remarks_on(result, options.has_seeds() || options.is_coarse));
   return report;
 }
