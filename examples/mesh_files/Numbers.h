@@ -112,10 +112,15 @@ inline void note_other_elements(const std::string& path, std::uint64_t volumes, 
                                 Polygon_soup& soup) {
   if (volumes > 0 && soup.number_of_faces() == 0)
     throw Unreadable_file(path + ": the mesh has " + std::to_string(volumes) +
-                          " elements of volume and no surface; save the faces of its surface, too");
-  if (volumes > 0) soup.remarks.push_back("passed over " + std::to_string(volumes) + " elements of volume");
+                          (volumes == 1 ? " element" : " elements") +
+                          " of volume and no surface; save the faces of its surface, too");
+  if (volumes > 0)
+    soup.remarks.push_back("passed over " + std::to_string(volumes) +
+                           (volumes == 1 ? " element of volume" : " elements of volume"));
   if (curved > 0)
-    soup.remarks.push_back(std::to_string(curved) + " curved faces were read as flat ones between their corners");
+    soup.remarks.push_back(curved == 1
+                               ? "1 curved face was read as a flat one between its corners"
+                               : std::to_string(curved) + " curved faces were read as flat ones between their corners");
 }
 
 }  // namespace mesh_files

@@ -19,10 +19,9 @@
 namespace segment_mesh {
 
 /// The formats of meshes, as their files end.
-inline const Names<mesh_files::Format> format_names = {{"off", mesh_files::Format::off},
-                                                       {"ply", mesh_files::Format::ply},
-                                                       {"obj", mesh_files::Format::obj},
-                                                       {"stl", mesh_files::Format::stl}};
+inline const Names<mesh_files::Format> format_names = {
+    {"off", mesh_files::Format::off}, {"ply", mesh_files::Format::ply}, {"obj", mesh_files::Format::obj},
+    {"stl", mesh_files::Format::stl}, {"msh", mesh_files::Format::msh}, {"mesh", mesh_files::Format::medit}};
 
 /// Adds an option with a few named choices.
 template <class Choice>
@@ -81,8 +80,10 @@ inline void define_command_line(CLI::App& app, Options& options) {
   for (const auto& [title, text, is_preformatted] : help_sections) footer += std::string(title) + ":\n" + text + "\n";
   app.footer(footer);
 
-  app.add_option("mesh", options.meshes,
-                 "The mesh, or several: OFF, PLY, OBJ or STL, also packed by gzip; - is standard input")
+  app.add_option(
+         "mesh", options.meshes,
+         "The mesh, or several: OFF, PLY, OBJ, STL, Gmsh or Medit, also packed by gzip; glTF, 3MF, COLLADA, FBX and\n"
+         "others where Assimp is compiled in; - is standard input")
       ->option_text("MESH ...");
   add_choice(app, "--format", options.format, format_names,
              "What the meshes are, whatever their names and first bytes tell", "Input");

@@ -35,8 +35,10 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "segments are only listed; they are not where an output is /dev/stdout.\n",
      false},
     {"Input",
-     "OFF, PLY, OBJ and STL, packed by gzip or not; the first bytes tell which, and where they do not, the name or\n"
-     "--format. A file without faces is refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
+     "OFF, PLY, OBJ, STL, Gmsh (.msh) and Medit (.mesh, .meshb), packed by gzip or not; where the program is built\n"
+     "with Assimp, also glTF, GLB, 3MF, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all meshes of their\n"
+     "scenes. The first bytes tell which, and where they do not, the name or --format. A file without faces is\n"
+     "refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"

@@ -105,6 +105,11 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
                  {"segments", Json::array()},
                  {"milliseconds", milliseconds},
                  {"version", version()}};
+  for (std::size_t i = 0; i < soup.parts.size(); ++i) {
+    const std::size_t first = soup.parts[i].first_face;
+    const std::size_t end = i + 1 < soup.parts.size() ? soup.parts[i + 1].first_face : soup.number_of_faces();
+    report["parts"].push_back({{"name", soup.parts[i].name}, {"first_face", first}, {"faces", end - first}});
+  }
   for (const Segment& s : segments)
     report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
   if (!result.fragment.empty() && result.surfaces.empty()) report["levels"] = result.tree.levels(result.suggested);

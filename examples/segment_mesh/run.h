@@ -13,6 +13,7 @@
 #include "Task.h"
 #include "close_parts.h"
 #include "limits.h"
+#include "read_by_assimp.h"
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
@@ -120,6 +121,15 @@ inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& 
   return walls;
 }
 
+/// Reads a mesh, by Assimp if it is of a format that nothing here reads.
+/// \throws mesh_files::Unreadable_file
+inline mesh_files::Polygon_soup read_input(const std::string& path, const std::optional<mesh_files::Format>& format) {
+  const std::string content = mesh_files::read_content(path);
+  const std::string extension = format ? "" : extension_for_assimp(path, content);
+  return extension.empty() ? mesh_files::mesh_of_content(path, content, format)
+                           : read_by_assimp(path, content, extension);
+}
+
 /// \throws mesh_files::Unreadable_file
 inline void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygon_soup& soup) {
   if (soup.number_of_faces() > 0) return;
@@ -142,7 +152,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   };
 
   stages.start("reading");
-  mesh_files::Polygon_soup soup = mesh_files::read_mesh(task.mesh, options.format);
+  mesh_files::Polygon_soup soup = read_input(task.mesh, options.format);
   stages.start("repair");
   refuse_mesh_without_faces(task.mesh, soup);
   Oriented_mesh input = oriented_mesh(soup, options.repairs);
