@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import importlib
 import json
-import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -17,17 +15,7 @@ import pytest
 from numpy.typing import NDArray
 
 from meshes import read_off
-
-
-def reader(name: str) -> Any:
-    """Import a reader. Without it the tests are skipped; in CI that is a failure."""
-    try:
-        return importlib.import_module(name)
-    except (ImportError, OSError) as error:  # the latter where libraries of the system are missing
-        if os.environ.get("CI") == "true":
-            raise
-        pytest.skip(f"{name} is missing: {error}", allow_module_level=True)
-
+from readers import reader
 
 gmsh, lib3mf, meshio, pandas, pygltflib, pyvista, trimesh = map(
     reader, ["gmsh", "lib3mf", "meshio", "pandas", "pygltflib", "pyvista", "trimesh"]
