@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -163,7 +164,7 @@ void write_files(const std::filesystem::path& folder, const defects::Soup& small
 }
 
 /// What became of reading a file, in a process of its own: 1 for the right triangles, 0 for others and -1 for none, and the
-/// milliseconds and megabytes that it took.
+/// milliseconds of processor time and the megabytes that it took.
 Outcome outcome_of(const Reader& reader, const std::string& path,
                    const std::function<bool(std::vector<Triangle>)>& is_right) {
   constexpr rlim_t seconds = 60;
@@ -171,13 +172,14 @@ Outcome outcome_of(const Reader& reader, const std::string& path,
     const rlimit time = {seconds, seconds};
     setrlimit(RLIMIT_CPU, &time);
     const double before = peak_mb();
-    const Stopwatch watch;
+    const std::clock_t start = std::clock();
     std::vector<Triangle> triangles;
     try {
       triangles = reader.read(path);
     } catch (const std::exception&) {
     }
-    const double milliseconds = watch.milliseconds(), megabytes = peak_mb() - before;
+    const double milliseconds = 1000. * double(std::clock() - start) / double(CLOCKS_PER_SEC),
+                 megabytes = peak_mb() - before;
     const bool is_refused = triangles.empty();
     return std::vector<double>{is_refused ? -1. : double(is_right(std::move(triangles))), milliseconds, megabytes};
   });

@@ -226,8 +226,6 @@ TEST_F(Capped_parts, WhoseCutsAreNotFlatHaveTheVolumeOfTheMesh) {
   for (int i = 2; i < 40; ++i) tower.floor.push_back({0, i - 1, i});
   tower.rise = [](double x, double y, int storey) { return storey == 1 || storey == 3 ? 0.4 * std::sin(x * y) : 0.; };
   const auto found = parts_of_tower(tower, {1, 3});
-  double volume = 0;
-  for (const auto& [label, part] : found) volume += volume_of(part);
   write("again.off", tower.off());
   expect_solids(found, volume_of(mesh_files::read_mesh(path("again.off"))));
 }
