@@ -167,10 +167,11 @@ void write_files(const std::filesystem::path& folder, const defects::Soup& small
 /// milliseconds of processor time and the megabytes that it took.
 Outcome outcome_of(const Reader& reader, const std::string& path,
                    const std::function<bool(std::vector<Triangle>)>& is_right) {
-  constexpr rlim_t seconds = 60;
+  constexpr rlim_t seconds = 60, bytes = rlim_t(4) << 30;
   return in_own_process([&] {
-    const rlimit time = {seconds, seconds};
+    const rlimit time = {seconds, seconds}, memory = {bytes, bytes};
     setrlimit(RLIMIT_CPU, &time);
+    setrlimit(RLIMIT_AS, &memory);
     const double before = peak_mb();
     const std::clock_t start = std::clock();
     std::vector<Triangle> triangles;
