@@ -48,6 +48,12 @@ find_package(OpenMesh QUIET CONFIG)
 find_package(CLI11 QUIET CONFIG)
 find_package(nlohmann_json QUIET CONFIG)
 find_package(ZLIB QUIET)
+find_package(assimp QUIET CONFIG)  # of the tool and one benchmark alone
+if(TARGET assimp::assimp)
+  message(STATUS "Optional library ASSIMP: found")
+else()
+  message(STATUS "Optional library ASSIMP: not found, segment_mesh reads fewer formats")
+endif()
 
 find_package(CHOLMOD QUIET CONFIG)  # shipped with SuiteSparse since version 7
 if(NOT TARGET SuiteSparse::CHOLMOD)

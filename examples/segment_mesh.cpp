@@ -43,6 +43,8 @@ Exit_code run_one(const Task& task, const Options& options) {
     if (!options.is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
     return success;
   }
+  const std::string percentage = remark_on_percentage(options.files, task.mesh);
+  if (!options.is_quiet && !percentage.empty()) say(percentage);
   const Json report = run(task, options, "");
   if (options.is_quiet || writes_to_standard_output(task.files)) return success;
   list(report["segments"]);

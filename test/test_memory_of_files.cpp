@@ -109,6 +109,16 @@ TEST(Memory_of_files, IsAMultipleOfTheFileWhateverItPromises) {
       {"billions.ply", ply("ascii", 4000000000, 4000000000, std::string(n, ' '))},
       {"billions_in_binary.ply", ply("binary_little_endian", 4000000000, 4000000000, std::string(n, '\0'))},
       {"billions.stl", stl_header + "\xff\xff\xff\xff" + std::string(n, '\0')},
+      {"nodes.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(n) + "\n" +
+                        repeated("1 0 0 0\n", n) + "$EndNodes\n"},
+      {"nodes_4.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 " + std::to_string(n) + " 1 1\n2 1 0 " +
+                          std::to_string(n) + "\n" + repeated("1\n", n) + repeated("0 0 0\n", n) + "$EndNodes\n"},
+      {"billions.msh",
+       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 1 1 1\n2 1 0 4000000000\n" + std::string(n, ' ')},
+      {"vertices.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices " + std::to_string(n) + repeated(" 0 0 0 0", n)},
+      {"faces.mesh", "MeshVersionFormatted 2 Dimension 3 Triangles " + std::to_string(n) + repeated(" 1 1 1 0", n)},
+      {"billions.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 4000000000 " + std::string(n, ' ')},
+      {"billions.meshb", std::string("\1\0\0\0\2\0\0\0\4\0\0\0\0\0\0\0\xff\xff\xff\x7f", 20) + std::string(n, '\0')},
       {"billions_of_corners.off", "OFF\n1 1 0\n0 0 0\n4000000000" + repeated(" 0", n) + "\n"}};
   for (const auto& [name, content] : files) EXPECT_LT(bytes_for_each(name, content), 40) << name;
 }

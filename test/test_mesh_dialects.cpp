@@ -4,6 +4,7 @@
 
 #include "../examples/mesh_files.h"
 
+#include "gmsh_and_medit_files.h"
 #include "mesh_bytes.h"
 
 #include <gtest/gtest.h>
@@ -252,7 +253,78 @@ TEST(Mesh_dialects, OffInAnyLayout) {
 TEST(Mesh_dialects, ObjIsKnownByItsFirstWordWhereNoNameTells) {
   expect_tetrahedron({"no_extension", "# by hand\n" + obj});
   EXPECT_EQ(mesh_files::mesh_of_content("-", "usemap x\n" + obj, mesh_files::Format::obj).points.size(), 4U);
-  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ or STL file");
+  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ, STL, Gmsh or Medit file");
+}
+
+TEST(Mesh_dialects, GmshAndMeditInAllTheirForms) {
+  for (const auto& [name, content] : gmsh_and_medit_files::all(tetrahedron_points, tetrahedron_faces)) {
+    expect_tetrahedron({name, content});
+    expect_tetrahedron({"no_extension", content});
+    if (name.find("text") != std::string::npos)
+      for (const char* line_end : {"\r\n", "\r"})
+        expect_tetrahedron({name, byte_order_mark + replaced(content, "\n", line_end)});
+  }
+}
+
+TEST(Mesh_dialects, GmshAndMeditHaveQuadsInOrder) {
+  const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 2, 0}};
+  const Faces faces = {{3, 2, 4}, {0, 1, 2, 3}};
+  for (const std::string& content :
+       {gmsh_and_medit_files::msh_2_text(points, faces), gmsh_and_medit_files::msh_4_text(points, faces),
+        gmsh_and_medit_files::msh_2_binary(points, faces, Order::little),
+        gmsh_and_medit_files::msh_4_binary(points, faces, Order::big),
+        gmsh_and_medit_files::medit_text(points, faces)}) {
+    const Polygon_soup soup = mesh_files::mesh_of_content("m", content);
+    EXPECT_EQ(soup.points, points);
+    EXPECT_EQ(soup.corners, (std::vector<Polygon_soup::Index>{3, 2, 4, 0, 1, 2, 3}));
+    EXPECT_EQ(soup.first_corner, (std::vector<std::size_t>{0, 3, 7}));
+  }
+}
+
+TEST(Mesh_dialects, VolumesAndCurvedFacesOfGmshAndMeditAreRemarkedOn) {
+  const std::string begin =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 0.5\n"
+      "5 0.5 0 0\n6 0.5 0.5 0\n$EndNodes\n$Elements\n";
+  const auto remark = [](const std::string& content) {
+    const Polygon_soup soup = mesh_files::mesh_of_content("m", content);
+    EXPECT_EQ(soup.corners, (std::vector<Polygon_soup::Index>{0, 1, 2}));
+    return soup.remarks.size() == 1 ? soup.remarks[0] : "none or several";
+  };
+  EXPECT_EQ(remark(begin + "2\n1 4 2 0 1 1 2 3 4\n2 2 0 1 2 3\n$EndElements\n"), "passed over 1 element of volume");
+  EXPECT_EQ(remark(begin + "1\n1 9 0 1 2 3 5 6 4\n$EndElements\n"),
+            "1 curved face was read as a flat one between its corners");
+  const std::string medit =
+      "MeshVersionFormatted 1 Dimension 3 Vertices 4 0 0 0 1 1 0 0 1 0 1 0 1 0 0 .5 1 Tetrahedra 1 1 2 3 4 1";
+  EXPECT_EQ(remark(medit + " Triangles 1 1 2 3 0 End"), "passed over 1 element of volume");
+  expect_refusal("t.mesh", medit + " End", "1 element of volume and no surface");
+  expect_refusal("t.msh", begin + "1\n1 4 2 0 1 1 2 3 4\n$EndElements\n", "1 element of volume and no surface");
+}
+
+TEST(Mesh_dialects, BrokenGmshAndMeditFilesAreRefused) {
+  using namespace gmsh_and_medit_files;
+  const std::string msh_2 = msh_2_text(tetrahedron_points, tetrahedron_faces),
+                    msh_4 = msh_4_text(tetrahedron_points, tetrahedron_faces),
+                    medit = medit_text(tetrahedron_points, tetrahedron_faces);
+  expect_refusal("4.0.msh", replaced(msh_4, "4.1 0 8", "4 0 8"),
+                 ":2: the version is '4', and only 2.2 and 4.1 are read");
+  expect_refusal("node.msh", replaced(msh_2, "16 0 0 0.5\n", "16 0 0\n"), "a coordinate is '");
+  expect_refusal("no_node.msh", replaced(msh_2, "\n10 1 0 0\n", "\n11 1 0 0\n"), "names node 10, which is not there");
+  expect_refusal("type.msh", replaced(msh_2, "2 2 2 0 1", "2 77 2 0 1"), "elements of type 77");
+  expect_refusal("many.msh", replaced(msh_2, "$Nodes\n4", "$Nodes\n4000000000"), "promises 4000000000 nodes");
+  expect_refusal("many_4.msh", replaced(msh_4, "2 1 0 3\n", "2 1 0 3000000000\n"), "promises 3000000000 nodes");
+  expect_refusal("more.msh", replaced(msh_2, "$Nodes\n4", "$Nodes\n3"), "more in the section than it says");
+  expect_refusal("infinite.msh", replaced(msh_2, " 0.5\n", " inf\n"), "a coordinate is not finite");
+  expect_refusal("end.msh", replaced(msh_2, "$EndPhysicalNames\n", ""), "without $EndPhysicalNames");
+  expect_refusal("word.mesh", replaced(medit, "Vertices # all of them\n4", "Vertices\nfour"), "a count is 'four'");
+  expect_refusal("many.mesh", replaced(medit, "them\n4", "them\n4000000000"), "promises 4000000000 vertices");
+  expect_refusal("zero.mesh", replaced(medit, "1 3 2 5", "0 3 2 5"), "the face names vertex 0");
+  expect_refusal("five.mesh", replaced(medit, "1 3 2 5", "1 3 5 5"), "a face names vertex 5, the file has 4");
+  expect_refusal("other.mesh", "OgreMesh",
+                 ":1: a Medit file starts with MeshVersionFormatted, this one with 'OgreMesh'");
+  for (const auto& [name, content] : all(tetrahedron_points, tetrahedron_faces))
+    for (std::size_t size = 0; size < content.size() / 2; ++size)
+      EXPECT_THROW(mesh_files::mesh_of_content(name, content.substr(0, size)).first_corner.at(1), std::exception)
+          << name << " cut to " << size;
 }
 
 TEST(Mesh_dialects, WhatIsNoMeshIsCalledByItsName) {

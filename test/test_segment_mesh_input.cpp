@@ -166,6 +166,20 @@ TEST_F(Segment_mesh_tool, TwoPercentSignsAreOne) {
   expect_failure(1, "several meshes need a %", {"m.off", "n.off", "--labels", "100%%.seg"});
 }
 
+TEST_F(Segment_mesh_tool, SaysWhereAPercentageBecomesTheNameOfTheMesh) {
+  write("m.off", grid(2));
+  const Result percentage = run({"m.off", "-o", "100%.ply", "--labels", "out%.seg"});
+  EXPECT_EQ(percentage.exit_code, 0);
+  EXPECT_EQ(
+      percentage.errors,
+      "segment_mesh: --output 100%.ply is 100m.ply: % stands for the name of the mesh, and %% for a percent sign\n");
+  EXPECT_TRUE(std::filesystem::exists(path("100m.ply")));
+  EXPECT_TRUE(std::filesystem::exists(path("outm.seg")));
+  for (const char* silent : {"out%.ply", "100%%.ply", "%1.ply"})
+    EXPECT_EQ(run({"m.off", "-o", silent}).errors, "") << silent;
+  EXPECT_TRUE(std::filesystem::exists(path("100%.ply")));
+}
+
 // ---- Pipes ----
 
 TEST_F(Segment_mesh_shell, StandardInputIsAMesh) {

@@ -43,9 +43,37 @@ Labels segments_of(const Mesh& mesh, const Surface_segmentation& numbers = {}) {
   return labels;
 }
 
-Labels segments_of(const solids::Solid& solid) { return segments_of(meshes::surface_mesh(shape_of(solid))); }
-
 std::size_t number_of(const Labels& labels) { return std::set<std::size_t>(labels.begin(), labels.end()).size(); }
+
+/// How many pieces faces of the same label form that hang together by edges.
+std::size_t number_of_pieces(const meshes::Surface_mesh& mesh, const Labels& labels) {
+  std::vector<bool> is_reached(labels.size(), false);
+  std::size_t pieces = 0;
+  for (const auto first : mesh.faces()) {
+    if (is_reached[first]) continue;
+    ++pieces;
+    is_reached[first] = true;
+    std::vector<meshes::Surface_mesh::Face_index> open = {first};
+    while (!open.empty()) {
+      const auto face = open.back();
+      open.pop_back();
+      for (const auto next : mesh.faces_around_face(mesh.halfedge(face))) {
+        if (next == meshes::Surface_mesh::null_face() || is_reached[next] || labels[next] != labels[face]) continue;
+        is_reached[next] = true;
+        open.push_back(next);
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Segments of a solid, each of which must hang together.
+Labels segments_of(const solids::Solid& solid) {
+  const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+  Labels labels = segments_of(mesh);
+  EXPECT_EQ(number_of_pieces(mesh, labels), number_of(labels)) << solid.name;
+  return labels;
+}
 
 double area_of(const solids::Solid& solid, std::size_t f) {
   const auto& face = solid.faces[f];

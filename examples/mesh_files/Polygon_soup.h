@@ -27,7 +27,13 @@ struct Polygon_soup {
   std::vector<Point> points;
   std::vector<Index> corners;                   ///< of all faces, one face after the other
   std::vector<std::size_t> first_corner = {0};  ///< of each face, and the end of the last
-  std::vector<std::string> remarks;             ///< what is odd about the file it was read from, a sentence each
+  /// Some formats have several meshes, each with a name: where their faces begin.
+  struct Part {
+    std::string name;
+    std::size_t first_face = 0;
+  };
+  std::vector<Part> parts;
+  std::vector<std::string> remarks;  ///< what is odd about the file it was read from, a sentence each
 
   std::size_t number_of_faces() const { return first_corner.size() - 1; }
 

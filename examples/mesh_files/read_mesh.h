@@ -6,6 +6,8 @@
 #include "Polygon_soup.h"
 #include "Text.h"
 #include "read_content.h"
+#include "read_medit.h"
+#include "read_msh.h"
 #include "read_obj.h"
 #include "read_off.h"
 #include "read_ply.h"
@@ -32,11 +34,16 @@ inline std::string extension_of(const std::string& path) {
 }
 
 /// The formats that are read.
-enum class Format { off, ply, obj, stl };
+enum class Format { off, ply, obj, stl, msh, medit };
 
 /// What files of a format end with, without the dot.
-inline const std::array<std::pair<const char*, Format>, 4> format_names = {
-    {{"off", Format::off}, {"ply", Format::ply}, {"obj", Format::obj}, {"stl", Format::stl}}};
+inline const std::array<std::pair<const char*, Format>, 7> format_names = {{{"off", Format::off},
+                                                                            {"ply", Format::ply},
+                                                                            {"obj", Format::obj},
+                                                                            {"stl", Format::stl},
+                                                                            {"msh", Format::msh},
+                                                                            {"mesh", Format::medit},
+                                                                            {"meshb", Format::medit}}};
 
 /// The format that a path names, before ".gz" if that is there.
 inline std::optional<Format> format_of_path(const std::string& path) {
@@ -49,10 +56,14 @@ inline std::optional<Format> format_of_path(const std::string& path) {
 
 /// The format whose mark a content has.
 inline std::optional<Format> format_of_content(std::string_view content) {
+  for (const auto order : {Numbers::Order::little, Numbers::Order::big})
+    if (medit::is_binary(content, order)) return Format::medit;
   Text text("", content.substr(0, 1 << 16));
   if (!text.next_line()) return std::nullopt;
   const std::string_view word = text.word();
   if (word == "ply") return Format::ply;
+  if (word == "$MeshFormat") return Format::msh;
+  if (word == medit::mark) return Format::medit;
   if (is_word(word, "solid")) return Format::stl;
   const bool is_off = off::mark_of(word.substr(0, word.find_last_not_of("0123456789") + 1)).is_off;
   return is_off ? std::optional(Format::off) : std::nullopt;
@@ -82,7 +93,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   const std::optional<Format> marked = format_of_content(content);
   std::optional<Format> format = given ? given : marked ? marked : format_of_path(path);
   if (!format && may_be_obj(content)) format = Format::obj;
-  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ or STL file");
+  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ, STL, Gmsh or Medit file");
   switch (*format) {
     case Format::off:
       return read_off(path, content);
@@ -90,6 +101,10 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
       return read_obj(path, content);
     case Format::stl:
       return read_stl(path, content);
+    case Format::msh:
+      return read_msh(path, content);
+    case Format::medit:
+      return read_medit(path, content);
     case Format::ply:
       break;
   }
@@ -97,7 +112,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   return read_ply(path, content);
 }
 
-/// The mesh in an OFF, PLY, OBJ or STL file, which may be packed by gzip. The content decides which it is; the extension
+/// The mesh in an OFF, PLY, OBJ, STL, Gmsh or Medit file, which may be packed by gzip. The content decides which it is; the extension
 /// does where the content has no mark of its own, as in OBJ files. Byte order marks and blanks at the beginning are
 /// passed over.
 /// \param path for the extension and messages; nothing is read from there
@@ -114,7 +129,7 @@ inline Polygon_soup mesh_of_content(const std::string& path, const std::string& 
   return soup;
 }
 
-/// Reads an OFF, PLY, OBJ or STL file, or standard input for "-", see `mesh_of_content()`.
+/// Reads an OFF, PLY, OBJ, STL, Gmsh or Medit file, or standard input for "-", see `mesh_of_content()`.
 /// \throws Unreadable_file if there is no such file, too
 inline Polygon_soup read_mesh(const std::string& path, const std::optional<Format>& format = std::nullopt) {
   return mesh_of_content(path, read_content(path), format);

@@ -58,17 +58,6 @@ inline RW_segmentation::Split_report cut_boundaries(Mesh& mesh, const Boundary_c
   return report;
 }
 
-/// The mesh as it is written.
-inline mesh_files::Polygon_soup soup_of(const Mesh& mesh) {
-  mesh_files::Polygon_soup soup;
-  for (const auto v : mesh.vertices()) soup.points.push_back(mesh.point(v));
-  for (const auto f : mesh.faces()) {
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) soup.corners.push_back(v);
-    soup.end_face();
-  }
-  return soup;
-}
-
 /// Writes curves as an OBJ file: a group with the two labels, points and a polyline for each.
 inline void write_curves(mesh_files::Output_file& file, const Boundary_curves& curves) {
   mesh_files::Buffer out(file);

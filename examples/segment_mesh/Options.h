@@ -79,6 +79,7 @@ struct Options : Choices {
   Files files;       ///< patterns of paths, see `path_for()`
   std::string page;  ///< of `files.html`; empty for the one that comes with the tool
   bool has_point_colors = false;
+  bool are_parts_closed = false;       ///< those of `--split` and of 3MF files
   std::optional<double> seconds;       ///< for each mesh
   std::optional<std::uint64_t> bytes;  ///< of memory
   bool is_quiet = false, is_man_page_wanted = false;
@@ -172,6 +173,10 @@ inline void check_combinations(const Options& options) {
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
   for (const std::string& path : files.outputs) format_of_output(path, options);
+  if (options.are_parts_closed && files.split.empty() &&
+      std::none_of(files.outputs.begin(), files.outputs.end(),
+                   [&](const std::string& path) { return format_of_output(path, options) == Output_format::three_mf; }))
+    throw CLI::ValidationError("--cap-parts", "there are no parts: give --split or an --output .3mf, too");
   const bool takes_format =
       !files.split.empty() || std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
         return tells_no_format(path) || format_of_output(path, options) == Output_format::text_stl;

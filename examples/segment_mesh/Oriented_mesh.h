@@ -61,6 +61,17 @@ inline double face_area(const Mesh& mesh, Mesh::Face_index f, double unit) {
   return CGAL::approximate_sqrt(normal_of_twice_the_area(mesh, f, unit).squared_length()) / 2;
 }
 
+/// The faces of a mesh as they are written.
+inline mesh_files::Polygon_soup soup_of(const Mesh& mesh) {
+  mesh_files::Polygon_soup soup;
+  for (const auto v : mesh.vertices()) soup.points.push_back(mesh.point(v));
+  for (const auto f : mesh.faces()) {
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) soup.corners.push_back(v);
+    soup.end_face();
+  }
+  return soup;
+}
+
 /// The largest side of the box around a mesh.
 inline double extent_of(const Mesh& mesh) {
   const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());

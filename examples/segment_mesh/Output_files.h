@@ -10,6 +10,7 @@
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
 #include "Task.h"
+#include "close_parts.h"
 #include "html_page.h"
 #include "report.h"
 #include "segments.h"
@@ -74,14 +75,18 @@ class Output_files {
     if (!files.split.empty()) split_.emplace(files.split);
   }
 
-  void write(const mesh_files::Polygon_soup& soup, const std::vector<Mesh::Face_index>& faces,
-             const Segmentation& result, const std::vector<Segment>& segments) {
+  /// \param closed what is written in place of the mesh where parts are closed; may be null
+  void write(const mesh_files::Polygon_soup& soup, const Closed_parts* closed,
+             const std::vector<Mesh::Face_index>& faces, const Segmentation& result,
+             const std::vector<Segment>& segments) {
     const std::vector<std::size_t> labels = in_file_order(faces, result.label);
-    if (!files_.outputs.empty()) write_meshes(soup, labels, segments);
+    const Mesh_with_labels whole = {soup, labels},
+                           parts = closed ? Mesh_with_labels{closed->soup, closed->label} : whole;
+    if (!files_.outputs.empty()) write_meshes(whole, parts, segments);
     if (!files_.labels.empty()) write_labels(labels);
     if (!files_.probabilities.empty()) write_probabilities(faces, result);
     if (!files_.hierarchy.empty()) file(files_.hierarchy).write(hierarchy_of(faces, result).dump() + "\n");
-    if (split_) write_parts(soup, labels, segments);
+    if (split_) write_parts(parts, segments);
   }
 
   /// \param faces the numbers of the faces of the file that the mesh lacks
@@ -115,12 +120,19 @@ class Output_files {
     return *std::find_if(open_.begin(), open_.end(), [&](const auto& file) { return file.path() == path; });
   }
 
-  void write_meshes(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
+  /// A mesh with a label for each face.
+  struct Mesh_with_labels {
+    const mesh_files::Polygon_soup& soup;
+    const std::vector<std::size_t>& labels;
+  };
+
+  void write_meshes(const Mesh_with_labels& whole, const Mesh_with_labels& parts,
                     const std::vector<Segment>& segments) {
     std::map<std::size_t, mesh_files::Color> color_of_label;
     for (const Segment& s : segments) color_of_label[s.label] = s.color;
     for (const std::string& path : files_.outputs) {
       const Output_format format = format_of_output(path, options_);
+      const auto& [soup, labels] = format == Output_format::three_mf ? parts : whole;
       write_mesh(file(path), format, {soup, labels, color_of_label});
       if (format == Output_format::obj) mesh_files::write_materials(file(material_library_of(path)), color_of_label);
     }
@@ -189,12 +201,11 @@ class Output_files {
     mesh_files::write_labels(out, labels);
   }
 
-  void write_parts(const mesh_files::Polygon_soup& soup, const std::vector<std::size_t>& labels,
-                   const std::vector<Segment>& segments) {
-    std::map<std::size_t, std::vector<std::size_t>> faces_of = mesh_files::faces_of_labels(labels);
+  void write_parts(const Mesh_with_labels& parts, const std::vector<Segment>& segments) {
+    std::map<std::size_t, std::vector<std::size_t>> faces_of = mesh_files::faces_of_labels(parts.labels);
     for (const Segment& segment : segments) {
       const std::vector<std::size_t>& faces = faces_of[segment.label];
-      const mesh_files::Polygon_soup part = mesh_files::part_of(soup, faces);
+      const mesh_files::Polygon_soup part = mesh_files::part_of(parts.soup, faces);
       const std::vector<std::size_t> part_labels(faces.size(), segment.label);
       write_mesh(create(files_.split + "/" + mesh_files::name_of_segment(segment.label) + extension_of_parts(options_)),
                  options_.output_format.value_or(Output_format::ply),

@@ -97,6 +97,18 @@ inline Files files_for(const std::string& mesh, Files patterns) {
   return patterns;
 }
 
+/// What is said where a percent sign behind a digit, as of a percentage, has become the name of the mesh; nothing if none has.
+inline std::string remark_on_percentage(const Files& patterns, const std::string& mesh) {
+  auto written = written_files(patterns);
+  written.emplace_back("--split", patterns.split);
+  for (const auto& [option, path] : written)
+    for (std::size_t i = 1; i < path.size(); ++i)
+      if (path[i] == '%' && path[i - 1] >= '0' && path[i - 1] <= '9' && path.compare(i, 2, "%%") != 0)
+        return std::string(option) + " " + path + " is " + path_for(mesh, path) +
+               ": % stands for the name of the mesh, and %% for a percent sign";
+  return "";
+}
+
 /// The lines of a file, or of standard input for "-"; blank ones and those that start with `#` are passed over.
 inline std::vector<std::string> lines_of(const std::string& path) {
   std::istringstream file;

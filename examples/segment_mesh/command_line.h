@@ -19,10 +19,9 @@
 namespace segment_mesh {
 
 /// The formats of meshes, as their files end.
-inline const Names<mesh_files::Format> format_names = {{"off", mesh_files::Format::off},
-                                                       {"ply", mesh_files::Format::ply},
-                                                       {"obj", mesh_files::Format::obj},
-                                                       {"stl", mesh_files::Format::stl}};
+inline const Names<mesh_files::Format> format_names = {
+    {"off", mesh_files::Format::off}, {"ply", mesh_files::Format::ply}, {"obj", mesh_files::Format::obj},
+    {"stl", mesh_files::Format::stl}, {"msh", mesh_files::Format::msh}, {"mesh", mesh_files::Format::medit}};
 
 /// Adds an option with a few named choices.
 template <class Choice>
@@ -81,8 +80,10 @@ inline void define_command_line(CLI::App& app, Options& options) {
   for (const auto& [title, text, is_preformatted] : help_sections) footer += std::string(title) + ":\n" + text + "\n";
   app.footer(footer);
 
-  app.add_option("mesh", options.meshes,
-                 "The mesh, or several: OFF, PLY, OBJ or STL, also packed by gzip; - is standard input")
+  app.add_option(
+         "mesh", options.meshes,
+         "The mesh, or several: OFF, PLY, OBJ, STL, Gmsh or Medit, also packed by gzip; glTF, 3MF, COLLADA, FBX and\n"
+         "others where Assimp is compiled in; - is standard input")
       ->option_text("MESH ...");
   add_choice(app, "--format", options.format, format_names,
              "What the meshes are, whatever their names and first bytes tell", "Input");
@@ -166,7 +167,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
   add_number(app, "--sigma", options.sigma, finite_positive, "The difference that stops a walk; 1 is an average edge")
       ->option_text("NUMBER")
       ->group("Walk");
-  add_number(app, "--cap", options.cap, positive, "The largest difference / sigma that counts, or inf")
+  add_number(app, "--cap", options.cap, positive,
+             "The largest difference / sigma that counts, or inf; what closes parts is --cap-parts")
       ->option_text("NUMBER")
       ->group("Walk");
 
@@ -233,6 +235,11 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--split", options.files.split,
                  "One mesh for each segment, in a new or empty folder: segment_LABEL.ply, or as --output-format tells")
       ->option_text("FOLDER")
+      ->group("Output");
+  app.add_flag(
+         "--cap-parts", options.are_parts_closed,
+         "Close the parts of --split, and the objects of .3mf files, where they were cut from each other, so that\n"
+         "they are solids. They are parts of the mesh after repair; --report tells their volumes.")
       ->group("Output");
   app.add_option("--probabilities", options.files.probabilities,
                  "One line for each face, one column for each label; the first line names the labels; or .npz, or .csv")

@@ -35,16 +35,18 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "segments are only listed; they are not where an output is /dev/stdout.\n",
      false},
     {"Input",
-     "OFF, PLY, OBJ and STL, packed by gzip or not; the first bytes tell which, and where they do not, the name or\n"
-     "--format. A file without faces is refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
+     "OFF, PLY, OBJ, STL, Gmsh (.msh) and Medit (.mesh, .meshb), packed by gzip or not; where the program is built\n"
+     "with Assimp, also glTF, GLB, 3MF, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all meshes of their\n"
+     "scenes. The first bytes tell which, and where they do not, the name or --format. A file without faces is\n"
+     "refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"
      "(and of --seeds-file and --constraints), % stands for the name of the mesh, without folder and extension,\n"
-     "{folder} for the folders on its path, joined by _, and %% for a percent sign. A --report without a % gets one\n"
-     "line for each mesh as soon as it is done, with \"error\" in it if it failed. With --resume, meshes are passed\n"
-     "over whose outputs are all there and not older than the mesh; the report goes on after its last line. Whether\n"
-     "other options have changed is not looked at.\n",
+     "{folder} for the folders on its path, joined by _, and %% for a percent sign, also where there is one mesh. A\n"
+     "--report without a % gets one line for each mesh as soon as it is done, with \"error\" in it if it failed. With\n"
+     "--resume, meshes are passed over whose outputs are all there and not older than the mesh; the report goes on\n"
+     "after its last line. Whether other options have changed is not looked at.\n",
      false},
     {"Exit codes",
      "  0  success\n"
@@ -60,6 +62,7 @@ constexpr std::array<Help_section, 6> help_sections = {{
     {"Examples",
      "  segment_mesh hand.off --output hand.ply\n"
      "  segment_mesh hand.off --segments 6 --split fingers\n"
+     "  segment_mesh hand.off --segments 6 --cap-parts --output hand.3mf\n"
      "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
      "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
      "  segment_mesh hand.off --html hand.html\n"

@@ -7,6 +7,7 @@
 #include "Method.h"
 #include "Options.h"
 #include "Segmentation.h"
+#include "close_parts.h"
 #include "segments.h"
 
 #include <RW_segmentation/Analytic_surface.h>
@@ -75,6 +76,16 @@ inline Json parameters_of(const Options& options, const Method& method) {
   return parameters;
 }
 
+/// Adds what closing the parts has come to.
+inline void add_closed_parts(Json& report, const Closed_parts& closed) {
+  for (Json& segment : report["segments"]) {
+    const Closed_part& part = closed.parts.at(segment["label"].get<std::size_t>());
+    segment["caps"] = part.caps;
+    segment["closed"] = part.is_closed;
+    if (part.is_closed) segment["volume"] = part.volume;
+  }
+}
+
 /// \param left_out_faces how many faces of the file the mesh lacks; they count in the segments whose labels they get
 inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& soup,
                       const std::vector<std::string>& remarks, std::size_t left_out_faces, Json parameters,
@@ -94,6 +105,11 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
                  {"segments", Json::array()},
                  {"milliseconds", milliseconds},
                  {"version", version()}};
+  for (std::size_t i = 0; i < soup.parts.size(); ++i) {
+    const std::size_t first = soup.parts[i].first_face;
+    const std::size_t end = i + 1 < soup.parts.size() ? soup.parts[i + 1].first_face : soup.number_of_faces();
+    report["parts"].push_back({{"name", soup.parts[i].name}, {"first_face", first}, {"faces", end - first}});
+  }
   for (const Segment& s : segments)
     report["segments"].push_back({{"label", s.label}, {"faces", s.faces}, {"area_share", s.area}, {"color", s.color}});
   if (!result.fragment.empty() && result.surfaces.empty()) report["levels"] = result.tree.levels(result.suggested);

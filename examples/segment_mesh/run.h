@@ -11,7 +11,9 @@
 #include "Segmentation.h"
 #include "Stages.h"
 #include "Task.h"
+#include "close_parts.h"
 #include "limits.h"
+#include "read_by_assimp.h"
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
@@ -25,6 +27,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -118,6 +121,15 @@ inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& 
   return walls;
 }
 
+/// Reads a mesh, by Assimp if it is of a format that nothing here reads.
+/// \throws mesh_files::Unreadable_file
+inline mesh_files::Polygon_soup read_input(const std::string& path, const std::optional<mesh_files::Format>& format) {
+  const std::string content = mesh_files::read_content(path);
+  const std::string extension = format ? "" : extension_for_assimp(path, content);
+  return extension.empty() ? mesh_files::mesh_of_content(path, content, format)
+                           : read_by_assimp(path, content, extension);
+}
+
 /// \throws mesh_files::Unreadable_file
 inline void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygon_soup& soup) {
   if (soup.number_of_faces() > 0) return;
@@ -140,7 +152,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   };
 
   stages.start("reading");
-  mesh_files::Polygon_soup soup = mesh_files::read_mesh(task.mesh, options.format);
+  mesh_files::Polygon_soup soup = read_input(task.mesh, options.format);
   stages.start("repair");
   refuse_mesh_without_faces(task.mesh, soup);
   Oriented_mesh input = oriented_mesh(soup, options.repairs);
@@ -159,17 +171,24 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   Segmentation result = segment(input.mesh, walls, seeds, options, method, stages);
   treat_boundaries(options, soup, input, walls, result, stages, files);
 
+  std::optional<Closed_parts> closed;
+  if (options.are_parts_closed) {
+    stages.start("caps");
+    closed = closed_parts(input.mesh, result.label);
+  }
   stages.start("writing");
   const std::vector<Segment> all_segments = segments_of(input.mesh, result.label);
   const auto faces = faces_in_file_order(soup, input);
   const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
-  files.write(soup, faces, result, segments);
+  files.write(soup, closed ? &*closed : nullptr, faces, result, segments);
   files.write_left_out(left_out);
   files.write_page(task.mesh, input.mesh, result, all_segments.size());
   stages.end();
   Json report = report_of(task.mesh, soup, input.remarks, left_out.size(), parameters_of(options, method), result,
                           segments, stages.milliseconds());
+  if (closed) add_closed_parts(report, *closed);
   files.commit(report);
+  if (closed) remark(closed->remarks);
   remark(remarks_on(result, options.has_seeds() || options.is_coarse));
   return report;
 }

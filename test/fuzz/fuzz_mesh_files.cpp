@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     const auto read = [&]() -> mesh_files::Polygon_soup {
-      switch (data[0] % 5) {
+      switch (data[0] % 7) {
         case 0:
           return mesh_files::read_off("file", content);
         case 1:
@@ -26,6 +26,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           return mesh_files::read_obj("file", content);
         case 3:
           return mesh_files::read_stl("file", content);
+        case 5:
+          return mesh_files::read_msh("file", content);
+        case 6:
+          return mesh_files::read_medit("file", content);
         default:  // packed or not, and whatever it begins with
           return mesh_files::mesh_of_content("file", std::string(content));
       }

@@ -7,6 +7,8 @@
 
 #include "../../examples/mesh_files.h"
 
+#include "../gmsh_and_medit_files.h"
+#include "../mesh_bytes.h"
 #include "../meshes.h"
 
 #include <cstddef>
@@ -88,6 +90,9 @@ int main(int argc, char** argv) {
       for (const meshes::Shape& shape : {meshes::Shape(), meshes::plane(1), meshes::cube(1), meshes::sphere(1)})
         for (const std::string& file : files_of(shape)) add(file);
       for (const std::string& file : dialects()) add(file);
+      for (const auto& [name, content] :
+           gmsh_and_medit_files::all(mesh_bytes::tetrahedron_points, mesh_bytes::tetrahedron_faces))
+        add((name.find(".msh") != std::string::npos ? "\5" : "\6") + content);
     } else {
       for (unsigned seed = 0; seed < 100; ++seed) add(random_bytes(seed));
     }

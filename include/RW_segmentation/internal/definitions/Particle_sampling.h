@@ -48,6 +48,7 @@ class Particles {
   /// Lets about `count` movable particles come to rest.
   void settle(std::size_t count, const Progress& progress) {
     constexpr std::size_t most_rounds = 100, rounds_per_generation = 5;
+    const std::size_t most = 2 * count;  // thin parts, round which few neighbours repel, would fill up with particles
     choose_radius();
     if (radius_ == 0) return;  // all are in one place
     for (std::size_t round = 1; round <= most_rounds; ++round) {
@@ -60,7 +61,7 @@ class Particles {
       const double crowd = static_cast<double>(number_of_movable()) / static_cast<double>(count);
       const bool as_many_as_wanted = std::abs(crowd - 1) <= 0.1;
       if (!as_many_as_wanted) radius_ *= std::clamp(std::sqrt(crowd), 0.9, 1.1);
-      if (!next_generation() && at_rest && as_many_as_wanted) return;
+      if (!next_generation(most) && at_rest && as_many_as_wanted) return;
     }
   }
 
@@ -225,9 +226,11 @@ class Particles {
 
   bool is_crowded(const Particle& p) const { return p.radius < 0.7 * radius_; }
 
-  /// Splits particles and lets them die, one in a neighbourhood at a time. Returns whether there were any.
-  bool next_generation() {
+  /// Splits particles, as long as there are no more than so many movable ones, and lets them die, one in a neighbourhood at
+  /// a time. Returns whether there were any.
+  bool next_generation(std::size_t most) {
     update_tree();
+    std::size_t movable = number_of_movable();
     std::vector<Particle> next;
     bool changed = false;
     for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -238,8 +241,9 @@ class Particles {
       if (is_crowded(parent) && leads(i, std::less<>())) {
         occupied_[parent.face] = false;
         next.pop_back();
+        --movable;
         changed = true;
-      } else if (has_room_for_two(parent) && leads(i, std::greater<>())) {
+      } else if (movable < most && has_room_for_two(parent) && leads(i, std::greater<>())) {
         const auto around = mesh_.graph().neighbours(parent.face);
         const auto place = std::find_if(around.begin(), around.end(),
                                         [&](auto n) { return !occupied_[n.face] && !mesh_.is_wall(n.edge); });
@@ -248,6 +252,7 @@ class Particles {
         const double radius = parent.radius;
         next.push_back({place->face, metric_.point(place->face), radius, false});
         occupied_[place->face] = true;
+        ++movable;
         changed = true;
       }
     }

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: MIT
+"""The tool reads what programs write that are not of this project."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from readers import reader
+
+gmsh, meshio, trimesh = map(reader, ["gmsh", "meshio", "trimesh"])
+
+
+def read_by_tool(tool: Path, mesh: Path) -> tuple[Any, dict[str, Any]]:
+    """Give what the tool has read, as it writes it, and its report."""
+    out, report = mesh.parent / "read_by_tool.ply", mesh.parent / "report.json"
+    subprocess.run([str(tool), str(mesh), "--seed", "0", "--quiet", "-o", out, "--report", report], check=True)
+    return trimesh.load(out), json.loads(report.read_text())
+
+
+@pytest.fixture(scope="module")
+def gmsh_files(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Let Gmsh write a box with a cylinder on it: triangles alone, with tetrahedra, and curved."""
+    folder = tmp_path_factory.mktemp("gmsh")
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 2, 3)
+        gmsh.model.occ.addCylinder(0.5, 1, 1, 0, 0, 4, 0.3)
+        gmsh.model.occ.fuse([(3, 1)], [(3, 2)])
+        gmsh.model.occ.synchronize()
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        for kind in ("faces", "volumes", "curved"):
+            gmsh.model.mesh.generate(3 if kind == "volumes" else 2)
+            if kind == "curved":
+                gmsh.model.mesh.setOrder(2)
+            for version in (2.2, 4.1):
+                for is_binary in (0, 1):
+                    gmsh.option.setNumber("Mesh.MshFileVersion", version)
+                    gmsh.option.setNumber("Mesh.Binary", is_binary)
+                    gmsh.write(str(folder / f"{kind}_{version}_{is_binary}.msh"))
+            if kind == "faces":
+                gmsh.option.setNumber("Mesh.Binary", 0)
+                gmsh.write(str(folder / "faces.mesh"))
+                meshio.read(folder / "faces.mesh").write(folder / "faces.meshb", file_format="medit")
+    finally:
+        gmsh.finalize()
+    return folder
+
+
+def test_all_that_gmsh_and_meshio_write_is_the_same_solid(gmsh_files: Path, tool: Path) -> None:
+    files = sorted(path for path in gmsh_files.iterdir() if path.suffix in (".msh", ".mesh", ".meshb"))
+    assert len(files) == 14
+    cells = meshio.read(gmsh_files / "faces.mesh")
+    expected = trimesh.Trimesh(cells.points, cells.cells_dict["triangle"])
+    assert expected.is_watertight
+    for path in files:
+        mesh, report = read_by_tool(tool, path)
+        assert mesh.is_watertight, path.name
+        assert len(mesh.faces) == report["faces"]
+        if not path.name.startswith("curved"):  # which have a mesh of their own
+            assert mesh.volume == pytest.approx(expected.volume, rel=1e-6), path.name
+            assert mesh.area == pytest.approx(expected.area, rel=1e-6), path.name
+        remarks = "".join(report["repairs"])
+        assert ("elements of volume" in remarks) == path.name.startswith("volumes")
+        assert ("curved faces" in remarks) == path.name.startswith("curved")
+
+
+@pytest.mark.parametrize("extension", ["glb", "gltf", "3mf"])
+def test_scenes_are_read_with_the_places_and_names_of_their_parts(extension: str, tool: Path, tmp_path: Path) -> None:
+    scene = trimesh.Scene()
+    scene.add_geometry(trimesh.creation.icosphere(subdivisions=2), node_name="ball")
+    place = np.diag([-1.0, 1.0, 2.0, 1.0])  # mirrored and stretched
+    place[0, 3] = 5
+    scene.add_geometry(trimesh.creation.box((1, 2, 3)), node_name="block", transform=place)
+    scene.export(tmp_path / f"scene.{extension}")
+    command = [str(tool), f"scene.{extension}", "--seed", "0", "-q"]
+    refusal = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    if "that is built with Assimp" in refusal.stderr and os.environ.get("CI") != "true":
+        pytest.skip("the tool was built without Assimp")
+    assert refusal.returncode == 0, refusal.stderr
+    mesh, report = read_by_tool(tool, tmp_path / f"scene.{extension}")
+    assert mesh.is_watertight
+    np.testing.assert_allclose(mesh.bounds, scene.bounds, atol=1e-6)
+    assert mesh.volume == pytest.approx(scene.to_geometry().volume, rel=1e-5)
+    assert report["repairs"] == []
+    assert [part["faces"] for part in report["parts"]] == [320, 12]
+    if extension != "3mf":  # trimesh gives objects of 3MF files no names
+        assert [part["name"] for part in report["parts"]] == ["ball", "block"]
+    assert sorted(segment["faces"] for segment in report["segments"]) == [12, 320]
+
+
+def test_a_broken_scene_is_refused_in_one_line(tool: Path, tmp_path: Path) -> None:
+    for name, content in {
+        "cut.glb": b"glTF\x02\0\0\0\xff\xff\xff\xff",
+        "no.dae": b"<COLLADA>",
+        "x.fbx": b"\0" * 99,
+    }.items():
+        (tmp_path / name).write_bytes(content)
+        refusal = subprocess.run([str(tool), name], cwd=tmp_path, capture_output=True, text=True)
+        assert refusal.returncode == 2
+        assert refusal.stderr.startswith(f"segment_mesh: {name}: ")
+        assert "Assimp" in refusal.stderr
+        assert refusal.stderr.count("\n") == 1
