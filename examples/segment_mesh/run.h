@@ -122,7 +122,10 @@ inline Json write_cad_files(const Task& task, const Options& options, const Mesh
 #ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
   if (!options.has_cad_files()) return {};
   const auto callback = stages.start("surfaces and edges");
-  const Cad_shape shape(Dual(mesh), result.label, result.surfaces, options.unit.value_or(length_units[0]), callback);
+  const Dual dual(mesh);
+  std::vector<std::size_t> labels = result.label;
+  const std::vector<std::size_t> label_of_number = dual.read_segments(face_map(mesh, labels));
+  const Cad_shape shape(dual, label_of_number, result.surfaces, options.unit.value_or(length_units[0]), callback);
   if (!shape.defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape.defect());
   files.write_cad_files(shape, name_of_mesh(task.mesh), segments);
   return shape.report();
