@@ -7,6 +7,11 @@
 // without Open CASCADE leave this one out. A program links its libraries TKernel, TKMath, TKG2d, TKG3d, TKGeomBase,
 // TKGeomAlgo, TKBRep and TKTopAlgo.
 
+// Open CASCADE has a macro Handle(...). These headers of CGAL have functions of that name and come first; so must others,
+// such as OpenMesh's.
+#include <CGAL/Handle.h>
+#include <CGAL/Lazy.h>
+
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
