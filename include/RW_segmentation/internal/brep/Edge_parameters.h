@@ -79,17 +79,28 @@ class Edge_parameters {
     return spline.IsNull() ? 32 : std::clamp(4 * spline->NbPoles(), 24, 400);
   }
 
-  /// What curves in a plane are is not sampled.
+  /// What lines, splines and circles are in a plane is not sampled.
   bool set_exactly() {
-    const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(surface_.geometry());
-    if (plane.IsNull()) return false;
+    if (!surface_.has_flat_parameters()) return false;
     if (edge_.curve->IsKind(STANDARD_TYPE(Geom_Line))) {
       curve_ = straight_parameters(surface_.parameters(edge_.at(edge_.first)),
                                    surface_.parameters(edge_.at(edge_.last)), edge_.first, edge_.last);
       return true;
     }
+    if (const Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(edge_.curve); !spline.IsNull()) {
+      curve_ = flat_spline(*spline);
+      return true;
+    }
+    const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(surface_.geometry());
+    if (plane.IsNull()) return false;
     curve_ = GeomAPI::To2d(edge_.curve, plane->Pln());
     return !curve_.IsNull();
+  }
+
+  Handle(Geom2d_Curve) flat_spline(const Geom_BSplineCurve& spline) const {
+    TColgp_Array1OfPnt2d poles(1, spline.NbPoles());
+    for (int i = 1; i <= spline.NbPoles(); ++i) poles(i) = kernel_point(surface_.parameters(point_of(spline.Pole(i))));
+    return new Geom2d_BSplineCurve(poles, spline.Knots(), spline.Multiplicities(), spline.Degree());
   }
 
   void sample() {

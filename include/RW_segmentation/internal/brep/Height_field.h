@@ -81,31 +81,36 @@ class Uniform_cubic {
 class Height_field : public Patch_surface {
  public:
   /// \param up away from the plane
-  /// \param points what the rectangle is to hold
+  /// \param points about where it will lie
   Height_field(const Point& up, const std::vector<Point>& points) {
     origin_ = Point::Zero();
     for (const Point& p : points) origin_ += p / double(points.size());
     axes_.col(2) = up;
     axes_.col(0) = longest_direction(up, points);
     axes_.col(1) = up.cross(axes_.col(0));
-    for (const Point& p : points) rectangle_.extend(local(p).head<2>());
-    constexpr double margin = 0.05;  // of the rectangle's diagonal: edges may pass beyond the mesh's vertices
-    const double width = margin * rectangle_.diagonal().norm();
-    rectangle_.min().array() -= width;
-    rectangle_.max().array() += width;
   }
 
-  /// Fits the heights to points, with as few splines as bring all of them within a distance, or the most there may be.
+  /// Fits the heights to points, with as few splines as bring all of them within a distance, or as many as there are
+  /// points.
   /// \returns the largest distance in the direction of the height
   double fit(const std::vector<Point>& points, double distance) {
     std::vector<Point> places;
-    for (const Point& p : points) places.push_back(local(p));
+    rectangle_.setEmpty();
+    for (const Point& p : points) {
+      places.push_back(local(p));
+      rectangle_.extend(places.back().head<2>());
+    }
+    constexpr double margin = 0.05;  // of the rectangle's diagonal: curves may pass beyond their points
+    const double width = margin * rectangle_.diagonal().norm();
+    rectangle_.min().array() -= width;
+    rectangle_.max().array() += width;
     double largest = 0;
     for (std::size_t longer = 1; longer <= most_spans; longer *= 2) {
       const Eigen::Vector2d size = rectangle_.sizes();
       const double ratio = std::min(1., size.minCoeff() / size.maxCoeff());
       const auto shorter = static_cast<std::size_t>(std::ceil(double(longer) * ratio));
       const bool is_wide = size.x() >= size.y();
+      if (longer > 1 && (longer + 3) * (shorter + 3) > places.size()) break;
       solve(places, is_wide ? longer : shorter, is_wide ? shorter : longer);
       largest = 0;
       for (const Point& p : places) largest = std::max(largest, std::abs(height(p.head<2>()) - p.z()));
@@ -126,13 +131,14 @@ class Height_field : public Patch_surface {
     return axes_ * Point(down.x(), down.y(), 1).normalized();
   }
   Parameters parameters(const Point& p) const override { return local(p).head<2>(); }
+  bool has_flat_parameters() const override { return true; }
 
  private:
   /// Along the longer side. The coefficients of the largest fit take 10 MB and a quarter of a second.
   static constexpr std::size_t most_spans = 32;
   /// The weight of the bending beside the mean square of the distances, where the rectangle's diagonal is 1. It decides
-  /// where points are too few, and moves points of an even mesh by less than 1e-6 of the diagonal.
-  static constexpr double bending_weight = 1e-10;
+  /// where points are too few, and moves points of an even mesh by about 1e-6 of the diagonal.
+  static constexpr double bending_weight = 1e-8;
 
   static Point longest_direction(const Point& up, const std::vector<Point>& points) {
     const Point x = up.unitOrthogonal(), y = up.cross(x);
@@ -201,7 +207,7 @@ class Height_field : public Patch_surface {
         add(basis(q, 1, 1), 0, 2 * weight);
         add(basis(q, 0, 2), 0, weight);
       }
-    coefficients_ = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    coefficients_ = normal.selfadjointView<Eigen::Lower>().llt().solve(right);
   }
 
   void make_geometry() {

@@ -53,7 +53,50 @@ class Patch_division {
     return result;
   }
 
+  /// A patch on a surface and, as free forms, its triangles that are far from it. One without such triangles becomes a
+  /// free form.
+  std::vector<Patch> without_far_triangles(const Patch& patch) {
+    constexpr double near = 1e-3;  // of the diagonal
+    for (const std::size_t t : patch.triangles) {
+      const auto& corners = mesh_.corners(t);
+      key_[t] = std::any_of(corners.begin(), corners.end(), [&](std::size_t v) {
+        return std::abs(patch.surface->distance(mesh_.point(v))) > near * mesh_.diagonal();
+      });
+    }
+    auto parts = mesh_.parts(patch.triangles, key_);
+    if (parts.size() < 2) return divided(patch.segment, patch.triangles, Form::free_form);
+    return divided_parts(patch.segment, std::move(parts),
+                         [&](std::size_t t) { return key_[t] ? Form::free_form : patch.form; });
+  }
+
+  /// A patch in two or more, cut across its longest extent.
+  std::vector<Patch> halved(const Patch& patch) {
+    Point mean = Point::Zero();
+    for (const std::size_t t : patch.triangles) mean += mesh_.centre(t) / double(patch.triangles.size());
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const std::size_t t : patch.triangles)
+      moments += (mesh_.centre(t) - mean) * (mesh_.centre(t) - mean).transpose();
+    const Point longest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(2);
+    for (const std::size_t t : patch.triangles) key_[t] = (mesh_.centre(t) - mean).dot(longest) > 0 ? 1 : 0;
+    straighten_cut(patch.triangles);
+    auto parts = mesh_.parts(patch.triangles, key_);
+    if (parts.size() < 2) return divided(patch.segment, patch.triangles, Form::triangles);
+    return divided_parts(patch.segment, std::move(parts), [](std::size_t) { return Form::free_form; });
+  }
+
  private:
+  /// \param form_of a function from the first triangle of a part to the part's form
+  template <class Form_of>
+  std::vector<Patch> divided_parts(std::size_t segment, std::vector<std::vector<std::size_t>> parts,
+                                   const Form_of& form_of) {
+    std::vector<Form> forms;  // before the keys change
+    for (const auto& part : parts) forms.push_back(form_of(part[0]));
+    std::vector<Patch> result;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (Patch& patch : divided(segment, std::move(parts[i]), forms[i])) result.push_back(std::move(patch));
+    return result;
+  }
+
   /// So many triangles or fewer determine no cone and no torus: these pass through any corners.
   static constexpr std::size_t too_few_for_cone = 6;
   /// Of the diagonal: a surface so far from its triangles is not theirs, whatever their corners tell.

@@ -44,6 +44,8 @@ class Patch_surface {
   virtual Parameters periods() const { return {0, 0}; }
   /// How far the surface goes, at most, when a parameter grows by 1.
   virtual Parameters speeds() const { return {1, 1}; }
+  /// Whether parameters are coordinates in a plane, so that those of a spline's poles are the poles of its parameters.
+  virtual bool has_flat_parameters() const { return false; }
   /// Whether a point is the tip of a cone, where the first parameter tells nothing.
   virtual bool is_tip(const Point&) const { return false; }
 

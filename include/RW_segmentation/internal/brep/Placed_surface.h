@@ -90,6 +90,7 @@ class Placed_surface : public Patch_surface {
     }
   }
 
+  bool has_flat_parameters() const override { return surface_.type == Surface_type::plane; }
   bool is_tip(const Point& p) const override {
     return surface_.type == Surface_type::cone && (p - surface_.point).norm() < tip_radius_;
   }

@@ -39,7 +39,7 @@ namespace RW_segmentation::internal::brep {
 struct Rejection {
   std::size_t patch;
   std::string reason;
-  bool helped_by_chords;  ///< whether the edges of the mesh may do better on the same surface
+  enum class Cause { edge_far_from_surface, face_not_valid, other } cause;
 };
 
 /// The faces of patches, made once. They share their edges and vertices, so that they are as closed as the mesh.
@@ -75,8 +75,8 @@ class Shape_attempt {
   static constexpr double least_tolerance = 1e-7;  // of the kernel
   /// Of the diagonal: edges that are farther from a surface make another shape of it.
   static constexpr double largest_gap = 2e-3, largest_gap_of_chord = 2e-2;
-  /// A face inside out has the area of all the rest.
-  static constexpr double largest_error_of_area = 0.2;
+  /// A face inside out has the area of all the rest; but half a circle may stand for a single chord of it.
+  static constexpr double largest_error_of_area = 0.6;
   /// Of the diagonal: what a free form is to keep to, where its splines can.
   static constexpr double accuracy_of_free_form = 1e-5;
 
@@ -86,8 +86,8 @@ class Shape_attempt {
     double tolerance = least_tolerance;
   };
 
-  void reject(std::size_t patch, std::string reason, bool helped_by_chords = false) {
-    if (patch != none) rejections_.push_back({patch, std::move(reason), helped_by_chords});
+  void reject(std::size_t patch, std::string reason, Rejection::Cause cause = Rejection::Cause::other) {
+    if (patch != none) rejections_.push_back({patch, std::move(reason), cause});
   }
 
   void make_vertices() {
@@ -168,9 +168,9 @@ class Shape_attempt {
         try {
           const double gap = lay_on_surface(edges_[c], chain, *patches_[patch].surface);
           if (!(gap < (is_chord ? largest_gap_of_chord : largest_gap) * mesh_.diagonal()))
-            reject(patch, "an edge is far from its surface");
+            reject(patch, "an edge is far from its surface", Rejection::Cause::edge_far_from_surface);
         } catch (const Standard_Failure& error) {
-          reject(patch, error.GetMessageString(), true);
+          reject(patch, error.GetMessageString(), Rejection::Cause::face_not_valid);
         }
       }
     }
@@ -203,7 +203,7 @@ class Shape_attempt {
         faces_[i] = make_face(i);
         check_face(i);
       } catch (const Standard_Failure& error) {
-        reject(i, error.GetMessageString(), true);
+        reject(i, error.GetMessageString(), Rejection::Cause::face_not_valid);
       }
     }
   }
@@ -211,7 +211,8 @@ class Shape_attempt {
   void check_face(std::size_t i) {
     const Patch& patch = patches_[i];
     if (patch.has_triangles()) return;
-    if (std::string error = first_error(faces_[i]); !error.empty()) return reject(i, std::move(error), true);
+    if (std::string error = first_error(faces_[i]); !error.empty())
+      return reject(i, std::move(error), Rejection::Cause::face_not_valid);
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(faces_[i], properties);
     double area = 0;

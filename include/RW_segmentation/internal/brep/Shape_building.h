@@ -63,14 +63,14 @@ class Shape_building {
   bool attempt() {
     separate_triangles();
     const Shape_attempt attempt(mesh_, patches_);
-    std::map<std::size_t, Form> next;  // of bases
+    std::map<std::size_t, Step> next;  // of bases
     for (const Rejection& rejection : attempt.rejections()) {
       const std::size_t base = base_of_[rejection.patch];
       if (bases_[base].has_triangles()) continue;
-      const Form form = next_form(bases_[base], rejection);
-      const auto [found, is_new] = next.emplace(base, form);
+      const Step step = next_step(bases_[base], rejection);
+      const auto [found, is_new] = next.emplace(base, step);
       if (is_new) ++refusals_[rejection.reason];
-      found->second = std::max(found->second, form);
+      found->second = std::max(found->second, step);
     }
     if (next.empty()) {
       faces_ = attempt.faces();
@@ -85,32 +85,46 @@ class Shape_building {
     return false;
   }
 
-  static Form next_form(const Patch& patch, const Rejection& rejection) {
-    const bool has_interior = patch.triangles.size() > 2;
-    switch (patch.form) {
-      case Form::surface:
-        return rejection.helped_by_chords && has_interior ? Form::surface_with_chords : Form::free_form;
-      case Form::surface_with_chords:
-        return Form::free_form;
-      case Form::free_form:
-        return rejection.helped_by_chords && has_interior ? Form::free_form_with_chords : Form::triangles;
-      default:
-        return Form::triangles;
-    }
+  /// What helps a patch that was refused, the gentlest first.
+  enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, become_triangles };
+
+  static Step next_step(const Patch& patch, const Rejection& rejection) {
+    constexpr std::size_t too_few_to_halve = 3;
+    const bool is_far = rejection.cause == Rejection::Cause::edge_far_from_surface;
+    const bool takes_chords = rejection.cause == Rejection::Cause::face_not_valid && patch.triangles.size() > 2;
+    if (patch.form == Form::surface && takes_chords) return Step::take_chords;
+    if (!patch.is_free_form()) return is_far ? Step::leave_out_far_triangles : Step::become_free_form;
+    if (patch.form == Form::free_form && takes_chords) return Step::take_chords;
+    return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::become_triangles;
   }
 
-  void remake(const std::map<std::size_t, Form>& next) {
+  void remake(const std::map<std::size_t, Step>& next) {
     std::vector<Patch> bases;
     for (std::size_t i = 0; i < bases_.size(); ++i) {
       const auto found = next.find(i);
-      if (found == next.end()) {
+      if (found == next.end())
         bases.push_back(std::move(bases_[i]));
-        continue;
-      }
-      for (Patch& patch : division_.divided(bases_[i].segment, std::move(bases_[i].triangles), found->second))
-        bases.push_back(std::move(patch));
+      else
+        for (Patch& patch : remade(bases_[i], found->second)) bases.push_back(std::move(patch));
     }
     bases_ = std::move(bases);
+  }
+
+  std::vector<Patch> remade(const Patch& patch, Step step) {
+    switch (step) {
+      case Step::take_chords:
+        return division_.divided(patch.segment, patch.triangles,
+                                 patch.is_free_form() ? Form::free_form_with_chords : Form::surface_with_chords);
+      case Step::leave_out_far_triangles:
+        return division_.without_far_triangles(patch);
+      case Step::become_free_form:
+        return division_.divided(patch.segment, patch.triangles, Form::free_form);
+      case Step::halve:
+        return division_.halved(patch);
+      case Step::become_triangles:
+        break;
+    }
+    return division_.divided(patch.segment, patch.triangles, Form::triangles);
   }
 
   void separate_triangles() {
