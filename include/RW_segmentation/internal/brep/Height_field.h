@@ -137,8 +137,8 @@ class Height_field : public Patch_surface {
   /// Along the longer side. The coefficients of the largest fit take 10 MB and a quarter of a second.
   static constexpr std::size_t most_spans = 32;
   /// The weight of the bending beside the mean square of the distances, where the rectangle's diagonal is 1. It decides
-  /// where points are too few, and moves points of an even mesh by about 1e-6 of the diagonal.
-  static constexpr double bending_weight = 1e-8;
+  /// where points are too few, and moves points of an even mesh by about 1e-6 of the diagonal, those on its border by 1e-5.
+  static constexpr double bending_weight = 1e-10;
 
   static Point longest_direction(const Point& up, const std::vector<Point>& points) {
     const Point x = up.unitOrthogonal(), y = up.cross(x);
