@@ -17,6 +17,7 @@
 #include <Message_Printer.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
@@ -58,7 +59,9 @@ void silence_kernel() {
 class Cad_document {
  public:
   Cad_document() {
+    constexpr double millimetre = 1e-3;  // of a metre
     XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document_);
+    XCAFDoc_DocumentTool::SetLengthUnit(document_, millimetre);
     shapes_ = XCAFDoc_DocumentTool::ShapeTool(document_->Main());
     colors_ = XCAFDoc_DocumentTool::ColorTool(document_->Main());
   }
@@ -97,10 +100,11 @@ class Cad_document {
 };
 
 std::string step_content(const Cad_document& document, const std::string& name, const Length_unit& unit) {
-  STEPCAFControl_Writer writer;
-  Interface_Static::SetCVal("write.step.unit", unit.kernel_name);
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("write.step.unit", unit.kernel_name);  // before the writer, which keeps it
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  STEPCAFControl_Writer writer;
   if (!writer.Transfer(document.document(), STEPControl_AsIs))
     throw std::runtime_error("no STEP file can be made of it");
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();

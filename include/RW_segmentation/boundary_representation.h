@@ -105,8 +105,8 @@ inline std::string Boundary_representation::defect() const {
   constexpr double largest_share = 0.1;      // of area or volume; chords of a circle in 8 parts cut off as much
   constexpr double largest_distance = 0.03;  // of the diagonal; likewise
   const auto differs = [](double a, double b) { return !(std::abs(a - b) <= largest_share * std::abs(b)); };
-  if (!report.is_valid) return report.error;
   if (!report.is_closed) return "it is not closed";
+  if (!report.is_valid) return report.error;
   if (differs(report.area, report.mesh_area)) return "its area is not that of the mesh";
   if (report.solids > 0 && differs(report.volume, report.mesh_volume)) return "its volume is not that of the mesh";
   for (const Boundary_face& face : faces)

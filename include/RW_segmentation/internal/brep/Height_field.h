@@ -92,26 +92,35 @@ class Height_field : public Patch_surface {
 
   /// Fits the heights to points, with as few splines as bring all of them within a distance, or as many as there are
   /// points.
+  /// \param points of the free form
+  /// \param chords points of the mesh between them, which are close to the free form and decide where nothing else does
   /// \returns the largest distance in the direction of the height
-  double fit(const std::vector<Point>& points, double distance) {
+  double fit(const std::vector<Point>& points, const std::vector<Point>& chords, double distance) {
+    if (points == fitted_points_) return largest_distance_;
+    fitted_points_ = points;
     std::vector<Point> places;
     rectangle_.setEmpty();
     for (const Point& p : points) {
       places.push_back(local(p));
       rectangle_.extend(places.back().head<2>());
     }
+    std::vector<Point> places_of_chords;
+    for (const Point& p : chords) {
+      places_of_chords.push_back(local(p));
+      rectangle_.extend(places_of_chords.back().head<2>());
+    }
     constexpr double margin = 0.05;  // of the rectangle's diagonal: curves may pass beyond their points
     const double width = margin * rectangle_.diagonal().norm();
     rectangle_.min().array() -= width;
     rectangle_.max().array() += width;
-    double largest = 0;
+    double& largest = largest_distance_;
     for (std::size_t longer = 1; longer <= most_spans; longer *= 2) {
       const Eigen::Vector2d size = rectangle_.sizes();
       const double ratio = std::min(1., size.minCoeff() / size.maxCoeff());
       const auto shorter = static_cast<std::size_t>(std::ceil(double(longer) * ratio));
       const bool is_wide = size.x() >= size.y();
       if (longer > 1 && (longer + 3) * (shorter + 3) > places.size()) break;
-      solve(places, is_wide ? longer : shorter, is_wide ? shorter : longer);
+      solve(places, places_of_chords, is_wide ? longer : shorter, is_wide ? shorter : longer);
       largest = 0;
       for (const Point& p : places) largest = std::max(largest, std::abs(height(p.head<2>()) - p.z()));
       if (largest <= distance) break;
@@ -139,6 +148,10 @@ class Height_field : public Patch_surface {
   /// The weight of the bending beside the mean square of the distances, where the rectangle's diagonal is 1. It decides
   /// where points are too few, and moves points of an even mesh by about 1e-6 of the diagonal, those on its border by 1e-5.
   static constexpr double bending_weight = 1e-10;
+
+  /// The weight of the mean square of the distances from chords, beside that from points: a fit gives way to chords by a
+  /// thousandth of what they cut off.
+  static constexpr double weight_of_chords = 1e-3;
 
   static Point longest_direction(const Point& up, const std::vector<Point>& points) {
     const Point x = up.unitOrthogonal(), y = up.cross(x);
@@ -179,7 +192,8 @@ class Height_field : public Patch_surface {
   }
 
   /// Least squares of the heights and of the bending.
-  void solve(const std::vector<Point>& places, std::size_t spans_u, std::size_t spans_v) {
+  void solve(const std::vector<Point>& places, const std::vector<Point>& places_of_chords, std::size_t spans_u,
+             std::size_t spans_v) {
     u_ = {rectangle_.min().x(), rectangle_.max().x(), spans_u};
     v_ = {rectangle_.min().y(), rectangle_.max().y(), spans_v};
     const auto n = static_cast<Eigen::Index>(u_.number() * v_.number());
@@ -197,6 +211,8 @@ class Height_field : public Patch_surface {
       }
     };
     for (const Point& p : places) add(basis(p.head<2>()), p.z(), 1 / double(places.size()));
+    for (const Point& p : places_of_chords)
+      add(basis(p.head<2>()), p.z(), weight_of_chords / double(places_of_chords.size()));
     const double length = rectangle_.diagonal().norm();
     const double weight = bending_weight * length * length * length * length / double(4 * spans_u * spans_v);
     for (std::size_t i = 0; i < 2 * spans_u; ++i)
@@ -235,6 +251,8 @@ class Height_field : public Patch_surface {
   Eigen::AlignedBox2d rectangle_;
   Uniform_cubic u_{0, 1, 1}, v_{0, 1, 1};
   Eigen::VectorXd coefficients_;
+  std::vector<Point> fitted_points_;
+  double largest_distance_ = 0;
   Handle(Geom_Surface) geometry_;
 };
 

@@ -105,6 +105,9 @@ class Patch_division {
   static constexpr double flatness = 1e-5;
   /// The cosine of the largest angle between the normals of a height field and the vertical.
   static constexpr double least_rise = 0.5;
+  /// The cosine of the largest angle between a triangle and the surface below its centre, and the share of the area that
+  /// may be steeper.
+  static constexpr double least_cosine = 0.75, largest_share_across = 0.1;
   static constexpr int most_cuts = 5, most_cuts_of_free_form = 8;
 
   struct Item {
@@ -118,7 +121,19 @@ class Patch_division {
     const bool is_cone_or_torus = surface.type == Surface_type::cone || surface.type == Surface_type::torus;
     if (is_cone_or_torus && triangles.size() <= too_few_for_cone) return false;
     if (surface.type == Surface_type::torus && surface.radius <= surface.tube_radius) return false;
-    return bulge(mesh_, triangles, surface) < largest_bulge * mesh_.diagonal();
+    return bulge(mesh_, triangles, surface) < largest_bulge * mesh_.diagonal() && is_along(surface, triangles);
+  }
+
+  /// Whether the triangles lie along a surface, but for a few. Corners on some circles may lie on a torus that bulges
+  /// far from the triangles between them.
+  bool is_along(const Analytic_surface& surface, const std::vector<std::size_t>& triangles) const {
+    double along = 0, against = 0, across = 0;  // areas
+    for (const std::size_t t : triangles) {
+      const Point normal = mesh_.area_vector(t);
+      const double area = normal.norm(), cosine = surface.normal(mesh_.centre(t)).dot(normal);
+      (std::abs(cosine) < least_cosine * area ? across : cosine > 0 ? along : against) += area;
+    }
+    return across + std::min(along, against) <= largest_share_across * (along + against + across);
   }
 
   void place(Patch patch, int depth, std::vector<Patch>& result, std::vector<Item>& open) {

@@ -29,6 +29,8 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,16 +44,21 @@ struct Rejection {
   enum class Cause { edge_far_from_surface, face_not_valid, other } cause;
 };
 
+/// What was found valid in an earlier attempt: points of the border of the face on a surface.
+using Valid_borders = std::map<std::shared_ptr<const Patch_surface>, std::vector<Point>>;
+
 /// The faces of patches, made once. They share their edges and vertices, so that they are as closed as the mesh.
 ///
 /// All is put together by `BRep_Builder`: nothing else leaves shared edges as they are. Tolerances are the distances that
 /// are measured between vertices, edges and surfaces.
 class Shape_attempt {
  public:
-  Shape_attempt(const Halfedge_triangles& mesh, const std::vector<Patch>& patches)
-      : mesh_(mesh), patches_(patches), borders_(mesh, patches), points_(mesh, patches, borders_) {
+  /// \param valid faces on the same surface with the same border are not checked again; changed
+  Shape_attempt(const Halfedge_triangles& mesh, const std::vector<Patch>& patches, Valid_borders& valid)
+      : mesh_(mesh), patches_(patches), borders_(mesh, patches), points_(mesh, patches, borders_), valid_(valid) {
     make_vertices();
     make_edges();
+    if (rejections_.empty()) sample_borders();
     if (rejections_.empty()) fit_free_forms();
     if (rejections_.empty()) lay_edges_on_surfaces();
     if (rejections_.empty()) make_faces();
@@ -134,29 +141,49 @@ class Shape_attempt {
     widen(last, edge.curve.at_share(1));
   }
 
-  /// Surfaces of free forms pass through the vertices inside a patch and along its edges.
-  void fit_free_forms() {
-    std::vector<std::vector<Point>> border_points(patches_.size());
-    std::vector<char> is_on_border(mesh_.points().size(), false);
+  void sample_borders() {
+    border_points_.resize(patches_.size());
     for (std::size_t c = 0; c < edges_.size(); ++c) {
       const Chain& chain = borders_.chains()[c];
       const std::size_t steps = std::clamp<std::size_t>(2 * chain.vertices.size(), 8, 200);
       for (std::size_t i = 0; i <= steps; ++i) {
         const Point p = edges_[c].curve.at_share(double(i) / double(steps));
         for (const std::size_t patch : {chain.left, chain.right})
-          if (patch != none) border_points[patch].push_back(p);
+          if (patch != none) border_points_[patch].push_back(p);
       }
-      for (const std::size_t v : chain.vertices) is_on_border[v] = true;
     }
+  }
+
+  /// Surfaces of free forms pass through the vertices inside a patch and along its edges.
+  void fit_free_forms() {
+    std::vector<char> is_on_border(mesh_.points().size(), false);
+    for (const Chain& chain : borders_.chains())
+      for (const std::size_t v : chain.vertices) is_on_border[v] = true;
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       auto* const field = dynamic_cast<Height_field*>(patches_[i].surface.get());
       if (!field) continue;
-      std::vector<Point> points = std::move(border_points[i]);
+      std::vector<Point> points = border_points_[i];
       for (const std::size_t v : corners_of(mesh_, patches_[i].triangles))
         if (!is_on_border[v]) points.push_back(mesh_.point(v));
-      const double deviation = field->fit(points, accuracy_of_free_form * mesh_.diagonal());
+      const double deviation =
+          field->fit(points, points_of_chords(patches_[i]), accuracy_of_free_form * mesh_.diagonal());
       if (!(deviation < largest_gap * mesh_.diagonal())) reject(i, "no free form comes close to the mesh");
     }
+  }
+
+  /// The centres of triangles and points of the edges between them.
+  std::vector<Point> points_of_chords(const Patch& patch) const {
+    std::vector<Point> points;
+    for (const std::size_t t : patch.triangles) {
+      points.push_back(mesh_.centre(t));
+      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::size_t other = mesh_.neighbour(h);
+        if (other == none || other < t || borders_.patch_of(other) != borders_.patch_of(t)) continue;
+        for (const double share : {0.25, 0.5, 0.75})
+          points.push_back((1 - share) * mesh_.point(mesh_.from(h)) + share * mesh_.point(mesh_.to(h)));
+      }
+    }
+    return points;
   }
 
   void lay_edges_on_surfaces() {
@@ -211,6 +238,8 @@ class Shape_attempt {
   void check_face(std::size_t i) {
     const Patch& patch = patches_[i];
     if (patch.has_triangles()) return;
+    const auto known = valid_.find(patch.surface);
+    if (known != valid_.end() && known->second == border_points_[i]) return;
     if (std::string error = first_error(faces_[i]); !error.empty())
       return reject(i, std::move(error), Rejection::Cause::face_not_valid);
     GProp_GProps properties;
@@ -220,6 +249,8 @@ class Shape_attempt {
     const double least_area = 1e-6 * mesh_.diagonal() * mesh_.diagonal();
     if (!(std::abs(properties.Mass() - area) <= largest_error_of_area * area + least_area))
       reject(i, "its area is not that of its triangles");
+    else
+      valid_[patch.surface] = border_points_[i];
   }
 
   /// Whether the normal of a patch's surface points out of the mesh.
@@ -293,9 +324,11 @@ class Shape_attempt {
   const std::vector<Patch>& patches_;
   Patch_borders borders_;
   Edge_points points_;
-  std::vector<TopoDS_Vertex> vertices_;  // by mesh vertex; null unless it is a branch point
-  std::vector<Edge> edges_;              // by chain
-  std::vector<TopoDS_Face> faces_;       // by patch
+  std::vector<TopoDS_Vertex> vertices_;            // by mesh vertex; null unless it is a branch point
+  std::vector<Edge> edges_;                        // by chain
+  std::vector<TopoDS_Face> faces_;                 // by patch
+  std::vector<std::vector<Point>> border_points_;  // by patch
+  Valid_borders& valid_;
   std::vector<Rejection> rejections_;
 };
 

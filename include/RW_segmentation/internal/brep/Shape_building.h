@@ -62,7 +62,7 @@ class Shape_building {
   /// \returns whether all is done
   bool attempt() {
     separate_triangles();
-    const Shape_attempt attempt(mesh_, patches_);
+    const Shape_attempt attempt(mesh_, patches_, valid_borders_);
     std::map<std::size_t, Step> next;  // of bases
     for (const Rejection& rejection : attempt.rejections()) {
       const std::size_t base = base_of_[rejection.patch];
@@ -148,6 +148,7 @@ class Shape_building {
   Patch_division division_;
   std::vector<Patch> bases_, patches_;
   std::vector<std::size_t> base_of_;  // by patch
+  Valid_borders valid_borders_;
   std::vector<TopoDS_Face> faces_;
   std::vector<double> tolerances_;
   std::vector<std::size_t> patch_of_;  // by triangle

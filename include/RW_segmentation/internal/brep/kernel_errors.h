@@ -29,6 +29,9 @@ inline std::string name_of(BRepCheck_Status status) {
       return "its border crosses itself";
     case BRepCheck_IntersectingWires:
       return "its borders cross";
+    case BRepCheck_EmptyWire:
+    case BRepCheck_EmptyShell:
+      return "a part of it is empty";
     case BRepCheck_NotClosed:
       return "its border is not closed";
     case BRepCheck_InvalidImbricationOfWires:
