@@ -16,8 +16,8 @@
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
-#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
@@ -100,7 +100,7 @@ class Cad_document {
 };
 
 std::string step_content(const Cad_document& document, const std::string& name, const Length_unit& unit) {
-  STEPControl_Controller::Init();
+  STEPCAFControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", unit.kernel_name);  // before the writer, which keeps it
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
