@@ -62,16 +62,18 @@ struct Boundary_face {
 
 /// What became of a mesh. Lengths, areas and volumes are in the units of the shape.
 struct Boundary_report {
-  bool is_valid = false;   ///< by the kernel's own check
-  bool is_closed = false;  ///< whether every component that the mesh closes is closed
-  std::string error;       ///< the first thing that is not valid; empty if nothing is
-  std::size_t solids = 0;
+  bool is_valid = false;        ///< by the kernel's own check
+  bool is_closed = false;       ///< whether every component that the mesh closes is closed
+  std::string error;            ///< the first thing that is not valid; empty if nothing is
+  std::size_t solids = 0;       ///< one for each closed component that is no void
   std::size_t voids = 0;        ///< in solids
   std::size_t open_shells = 0;  ///< of components with a border
   std::size_t edges = 0;        ///< between two faces, or at the border
-  double area = 0, mesh_area = 0;
-  double volume = 0, mesh_volume = 0;  ///< of the solids
-  double diagonal = 0;                 ///< of the mesh's bounding box
+  double area = 0;              ///< of all faces
+  double mesh_area = 0;         ///< of all triangles
+  double volume = 0;            ///< of the solids
+  double mesh_volume = 0;       ///< of the closed components, which has chords where solids have arcs
+  double diagonal = 0;          ///< of the mesh's bounding box
   /// How many patches were refused, by the reason; each was made again in another way.
   std::map<std::string, std::size_t> refusals;
 };
@@ -80,7 +82,7 @@ struct Boundary_report {
 struct Boundary_representation {
   TopoDS_Shape shape;                ///< a solid, an open shell, or a compound of several of them
   std::vector<Boundary_face> faces;  ///< of the shape
-  Boundary_report report;
+  Boundary_report report;            ///< of the whole
 
   /// How many faces are of a type, single triangles not counted.
   std::size_t number_of_faces(Surface_type type) const {
