@@ -125,7 +125,7 @@ void expect_relative(double value, double expected, double error) {
 }  // namespace
 
 TEST(Boundary_representation, HasAValidFaceOnEachSurfaceOfASolid) {
-  for (const auto& meshing : {solids::even(0.2), solids::by_kernel()})
+  for (const auto& meshing : {solids::even(0.5), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       SCOPED_TRACE(solid.name + (meshing.is_even ? ", even" : ", by a kernel"));
       const auto surfaces = surfaces_of(solid);
@@ -151,7 +151,7 @@ TEST(Boundary_representation, OfABoxIsTheBox) {
 }
 
 TEST(Boundary_representation, HasTheAreaAndTheVolumeOfTheShapeAndNotOfTheChords) {
-  for (const auto& meshing : {solids::even(0.15), solids::by_kernel()}) {
+  for (const auto& meshing : {solids::even(0.3), solids::by_kernel()}) {
     const double r = 0.6, length = 2;
     const Boundary_representation capsule = represented(solids::capsule(meshing));
     expect_relative(capsule.report.area, 2 * pi * r * length + 4 * pi * r * r, 1e-5);
@@ -193,7 +193,7 @@ TEST(Boundary_representation, FitsASurfaceToAFreeForm) {
 }
 
 TEST(Boundary_representation, OfAMeshWithABorderIsAShell) {
-  solids::Solid solid = solids::stepped_shaft(solids::even(0.2));
+  solids::Solid solid = solids::stepped_shaft(solids::even(0.4));
   for (std::size_t f = solid.faces.size(); f-- > 0;)
     if (solid.label[f] == 0) {
       solid.faces.erase(solid.faces.begin() + static_cast<std::ptrdiff_t>(f));
@@ -227,7 +227,7 @@ TEST(Boundary_representation, TurnsASolidThatIsInsideOut) {
 }
 
 TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
-  const solids::Solid solid = solids::stepped_shaft(solids::even(0.2));
+  const solids::Solid solid = solids::stepped_shaft(solids::even(0.4));
   for (const Surface_type wrong : analytic_types) {
     SCOPED_TRACE(name_of(wrong));
     std::vector<Analytic_surface> surfaces = surfaces_of(solid);

@@ -302,7 +302,12 @@ def drum_off(sides: int) -> str:
     faces = []
     for i in range(sides):
         j = (i + 1) % sides
-        faces += [(i, j, sides + j), (i, sides + j, sides + i), (j, i, 2 * sides), (sides + i, sides + j, 2 * sides + 1)]
+        faces += [
+            (i, j, sides + j),
+            (i, sides + j, sides + i),
+            (j, i, 2 * sides),
+            (sides + i, sides + j, 2 * sides + 1),
+        ]
     lines = ["OFF", f"{len(points)} {len(faces)} 0"]
     lines += [" ".join(map(repr, map(float, point))) for point in points]
     lines += [f"3 {a} {b} {c}" for a, b, c in faces]
@@ -318,9 +323,7 @@ def drum(tool: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("cad")
     (folder / "drum.off").write_text(drum_off(48))
     outputs = [word for ending in ("step", "iges", "brep") for word in ("-o", f"drum.{ending}")]
-    subprocess.run(
-        [tool, "drum.off", "--engineering", "--unit", "cm", "--quiet", *outputs], check=True, cwd=folder
-    )
+    subprocess.run([tool, "drum.off", "--engineering", "--unit", "cm", "--quiet", *outputs], check=True, cwd=folder)
     return folder
 
 

@@ -47,7 +47,7 @@ class Distance_to_mesh {
     double largest = 0;
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
       largest = std::max(largest, of_edge(TopoDS::Edge(edge.Current())));
-    constexpr int steps = 6;
+    constexpr int steps = 4;
     double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
     BRepTools::UVBounds(face, u0, u1, v0, v1);
     BRepTopAdaptor_FClass2d inside(face, 1e-7);
