@@ -125,7 +125,7 @@ void expect_relative(double value, double expected, double error) {
 }  // namespace
 
 TEST(Boundary_representation, HasAValidFaceOnEachSurfaceOfASolid) {
-  for (const auto& meshing : {solids::even(0.5), solids::by_kernel()})
+  for (const auto& meshing : {solids::even(0.25), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       SCOPED_TRACE(solid.name + (meshing.is_even ? ", even" : ", by a kernel"));
       const auto surfaces = surfaces_of(solid);
