@@ -54,6 +54,7 @@ if(TARGET assimp::assimp)
 else()
   message(STATUS "Optional library ASSIMP: not found, segment_mesh reads fewer formats")
 endif()
+include(${PROJECT_SOURCE_DIR}/examples/segment_mesh/Open_cascade.cmake)
 
 find_package(CHOLMOD QUIET CONFIG)  # shipped with SuiteSparse since version 7
 if(NOT TARGET SuiteSparse::CHOLMOD)
@@ -73,6 +74,13 @@ use_optional_library(TBB CGAL::TBB_support)
 use_optional_library(CLI11 CLI11::CLI11)
 use_optional_library(NLOHMANN_JSON nlohmann_json::nlohmann_json)
 use_optional_library(ZLIB ZLIB::ZLIB)
+
+# Open CASCADE is linked by those alone that need it.
+if(TARGET Open_cascade)
+  message(STATUS "Optional library OPEN_CASCADE: found")
+else()
+  message(STATUS "Optional library OPEN_CASCADE: not found, what needs it is left out")
+endif()
 
 # The folder `data` of CGAL, with the meshes: given by the user, or unpacked from the archive in Debian's libcgal-demo.
 set(RW_SEGMENTATION_DATA_DIR "" CACHE PATH

@@ -46,10 +46,11 @@ Exit_code run_one(const Task& task, const Options& options) {
   const std::string percentage = remark_on_percentage(options.files, task.mesh);
   if (!options.is_quiet && !percentage.empty()) say(percentage);
   const Json report = run(task, options, "");
-  if (options.is_quiet || writes_to_standard_output(task.files)) return success;
+  const Exit_code code = has_unsound_shape(report) ? unsound_shape : success;
+  if (options.is_quiet || writes_to_standard_output(task.files)) return code;
   list(report["segments"]);
   if (!options.segments) offer_other_levels(report);
-  return success;
+  return code;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #define SEGMENT_MESH_OPTIONS_H
 
 #include "../mesh_files.h"
+#include "Cad_format.h"
 #include "Method.h"
 #include "Oriented_mesh.h"
 #include "seeds.h"
@@ -31,6 +32,7 @@ enum Exit_code {
   unwritable_output = 5,
   some_meshes_failed = 6,
   reached_limit = 7,
+  unsound_shape = 8,
   cancelled = 130,  // as shells report a program that Ctrl-C ended
 };
 
@@ -80,10 +82,16 @@ struct Options : Choices {
   std::string page;  ///< of `files.html`; empty for the one that comes with the tool
   bool has_point_colors = false;
   bool are_parts_closed = false;       ///< those of `--split` and of 3MF files
+  std::optional<Length_unit> unit;     ///< of the mesh's coordinates; without it millimetres
+  bool keeps_invalid = false;          ///< whether CAD files are written that fail their checks
   std::optional<double> seconds;       ///< for each mesh
   std::optional<std::uint64_t> bytes;  ///< of memory
   bool is_quiet = false, is_man_page_wanted = false;
 
+  bool has_cad_files() const {
+    return std::any_of(files.outputs.begin(), files.outputs.end(),
+                       [](const std::string& path) { return cad_format_of(path).has_value(); });
+  }
   bool has_seeds() const { return !seeds.empty() || !files.seeds.empty(); }
   /// Whether fragments are merged, instead of each label of a seed being a segment.
   bool merges() const { return !is_coarse && (!has_seeds() || segments || automatic_seeds); }
@@ -150,6 +158,7 @@ inline Output_format format_of_output(const std::string& path, const Options& op
     if (extension == "." + name) return format;
     if (format != Output_format::text_stl) known += (known.empty() ? "." : ", .") + name;
   }
+  for (const auto& [name, format] : cad_extensions) known += ", " + name;
   throw CLI::ValidationError("--output",
                              path + " is none of " + known + (tells_none ? ": give --output-format, too" : ""));
 }
@@ -158,6 +167,22 @@ inline Output_format format_of_output(const std::string& path, const Options& op
 inline std::string extension_of_parts(const Options& options) {
   const Output_format format = options.output_format.value_or(Output_format::ply);
   return "." + name_of(output_format_names, format == Output_format::text_stl ? Output_format::stl : format);
+}
+
+/// Refuses CAD files that cannot be made.
+inline void check_cad_files(const Options& options) {
+  if (!options.has_cad_files()) {
+    if (options.unit) throw CLI::ValidationError("--unit", "only CAD files have one: give --output part.step, too");
+    if (options.keeps_invalid)
+      throw CLI::ValidationError("--keep-invalid", "only CAD files are checked: give --output part.step, too");
+    return;
+  }
+  if (!writes_cad_files)
+    throw CLI::ValidationError("--output",
+                               "CAD files need Open CASCADE, which this program was built without: install it "
+                               "(Debian: libocct-data-exchange-dev) and build segment_mesh again");
+  if (!options.is_engineering)
+    throw CLI::ValidationError("--output", "the faces of CAD files lie on surfaces: give --engineering, too");
 }
 
 /// Refuses options that do not go together.
@@ -172,15 +197,19 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--smooth", "nothing would show it: give --refine or --boundaries, too");
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
-  for (const std::string& path : files.outputs) format_of_output(path, options);
+  check_cad_files(options);
+  const auto has_output = [&](const auto& is_wanted) {
+    return std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
+      return !cad_format_of(path) && is_wanted(path, format_of_output(path, options));
+    });
+  };
+  has_output([](const std::string&, Output_format) { return false; });  // refuses what has no format
   if (options.are_parts_closed && files.split.empty() &&
-      std::none_of(files.outputs.begin(), files.outputs.end(),
-                   [&](const std::string& path) { return format_of_output(path, options) == Output_format::three_mf; }))
+      !has_output([](const std::string&, Output_format format) { return format == Output_format::three_mf; }))
     throw CLI::ValidationError("--cap-parts", "there are no parts: give --split or an --output .3mf, too");
-  const bool takes_format =
-      !files.split.empty() || std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
-        return tells_no_format(path) || format_of_output(path, options) == Output_format::text_stl;
-      });
+  const bool takes_format = !files.split.empty() || has_output([](const std::string& path, Output_format format) {
+    return format == Output_format::text_stl || tells_no_format(path);
+  });
   if (options.output_format && !takes_format)
     throw CLI::ValidationError("--output-format", "the name of each --output tells its format: leave it out");
   if (!files.split.empty() && options.output_format == Output_format::obj)

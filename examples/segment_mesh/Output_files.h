@@ -5,6 +5,8 @@
 
 #include "../mesh_files.h"
 #include "Boundaries.h"
+#include "Cad_format.h"
+#include "Cad_shape.h"
 #include "Closest_face.h"
 #include "Options.h"
 #include "Oriented_mesh.h"
@@ -102,6 +104,14 @@ class Output_files {
     if (!files_.boundaries.empty()) write_curves(file(files_.boundaries), curves);
   }
 
+  /// \param name of the solid
+  void write_cad_files(const Cad_shape& shape, const std::string& name, const std::vector<Segment>& segments) {
+    std::vector<mesh_files::Color> color_of_label(segments.empty() ? 0 : segments.back().label + 1);
+    for (const Segment& s : segments) color_of_label[s.label] = s.color;
+    for (const std::string& path : files_.outputs)
+      if (const auto format = cad_format_of(path)) file(path).write(shape.content(*format, name, color_of_label));
+  }
+
   /// Gives the files their names.
   void commit(const Json& report) {
     if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
@@ -131,6 +141,7 @@ class Output_files {
     std::map<std::size_t, mesh_files::Color> color_of_label;
     for (const Segment& s : segments) color_of_label[s.label] = s.color;
     for (const std::string& path : files_.outputs) {
+      if (cad_format_of(path)) continue;
       const Output_format format = format_of_output(path, options_);
       const auto& [soup, labels] = format == Output_format::three_mf ? parts : whole;
       write_mesh(file(path), format, {soup, labels, color_of_label});

@@ -211,7 +211,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
          "The coloured mesh, as the name ends. .ply and .vtp hold the labels (\"segment\"), .off colours; .obj (with "
          "a\n"
          "file .mtl beside it) and .glb have a group or primitive and a material for each segment, .3mf an object,\n"
-         ".msh a physical group, .mesh references, and .stl colours of facets. Repeatable.")
+         ".msh a physical group, .mesh references, and .stl colours of facets. With --engineering, .step, .iges and\n"
+         ".brep are solids for CAD systems, whose faces lie on the surfaces found. Repeatable.")
       ->allow_extra_args(false)
       ->option_text("FILE")
       ->group("Output");
@@ -220,6 +221,17 @@ inline void define_command_line(CLI::App& app, Options& options) {
       "What an --output is whose name does not tell, such as /dev/stdout, and the parts of --split (PLY). stl-text\n"
       "makes files .stl texts, with a solid for each segment.",
       "Output");
+  const auto choose_unit = [&](const std::string& name) {
+    for (const Length_unit& unit : length_units)
+      if (name == unit.name) options.unit = unit;
+    if (!options.unit) throw CLI::ValidationError("--unit", name + " is none of mm, cm, m, inch, ft");
+  };
+  app.add_option_function<std::string>("--unit", choose_unit, "The unit of the coordinates, for CAD files (mm)")
+      ->option_text("mm|cm|m|inch|ft")
+      ->group("Output");
+  app.add_flag("--keep-invalid", options.keeps_invalid,
+               "Write CAD files that fail their checks, too; the exit code tells")
+      ->group("Output");
   app.add_flag(
          "--point-colors", options.has_point_colors,
          "Colour points instead of faces, for viewers that do not show colours of faces. Points between segments\n"

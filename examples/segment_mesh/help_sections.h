@@ -17,7 +17,7 @@ struct Help_section {
   bool is_preformatted;
 };
 
-constexpr std::array<Help_section, 6> help_sections = {{
+constexpr std::array<Help_section, 7> help_sections = {{
     {"Which way",
      "Animals, people, furniture: no option at all. Parts of machines: --engineering. Too many or too few segments:\n"
      "--segments. Parts that you have in mind: --seed, one or more for each. A seed is a face or the closest face to "
@@ -33,6 +33,23 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "a\n"
      "program that is killed by SIGKILL leaves files .part* behind, which may be removed. Without an output, the\n"
      "segments are only listed; they are not where an output is /dev/stdout.\n",
+     false},
+    {"CAD files",
+     "With --engineering, an --output that ends with .step (.stp), .iges (.igs) or .brep is a solid whose faces lie "
+     "on\n"
+     "the surfaces found, free forms on fitted ones, and whose edges are lines, circles and splines. Meshes with a "
+     "border\n"
+     "become shells. The shape is checked: it must be valid and closed, and have the mesh's area and volume. What "
+     "fails "
+     "is\n"
+     "not written unless --keep-invalid is given, and the exit code is 8. --report has the checks, face by face. This "
+     "needs\n"
+     "Open CASCADE when segment_mesh is built; "
+#ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
+     "this one has it.\n",
+#else
+     "this one lacks it.\n",
+#endif
      false},
     {"Input",
      "OFF, PLY, OBJ, STL, Gmsh (.msh) and Medit (.mesh, .meshb), packed by gzip or not; where the program is built\n"
@@ -57,6 +74,7 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "  5  output that cannot be written\n"
      "  6  one or more of several meshes failed\n"
      "  7  the limit of time or memory was reached\n"
+     "  8  a CAD file fails its checks\n"
      "130  cancelled by Ctrl-C or another signal\n",
      true},
     {"Examples",
@@ -64,6 +82,7 @@ constexpr std::array<Help_section, 6> help_sections = {{
      "  segment_mesh hand.off --segments 6 --split fingers\n"
      "  segment_mesh hand.off --segments 6 --cap-parts --output hand.3mf\n"
      "  segment_mesh part.stl --engineering --output part.ply --report part.json\n"
+     "  segment_mesh part.stl --engineering --output part.step --unit inch\n"
      "  segment_mesh hand.off --seed 120 --seed 2303 --seed 77 --output hand.ply\n"
      "  segment_mesh hand.off --html hand.html\n"
      "  segment_mesh part.stl --constraints-angle 40 --segments 9 --labels part.seg\n"

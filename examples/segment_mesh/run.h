@@ -5,6 +5,8 @@
 
 #include "../mesh_files.h"
 #include "Boundaries.h"
+#include "Cad_format.h"
+#include "Cad_shape.h"
 #include "Options.h"
 #include "Oriented_mesh.h"
 #include "Output_files.h"
@@ -20,6 +22,7 @@
 #include "signals.h"
 #include "walls.h"
 
+#include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 
 #include <CLI/CLI.hpp>
@@ -68,6 +71,9 @@ inline Outcome failure(const std::string& mesh, const Options& options) {
     return {wrong_argument, mesh + ": " + in_words_of_options(error.what())};
   } catch (const mesh_files::Unwritable_file& error) {
     return {unwritable_output, error.what()};
+  } catch (const Unsound_shape& error) {
+    return {unsound_shape, mesh + ": the CAD file would not be right, and nothing was written: " + error.what() +
+                               " (--keep-invalid writes it all the same)"};
   } catch (const RW_segmentation::Cancelled&) {
     return {cancelled, std::string(cancelled_message)};
   } catch (const Out_of_time&) {
@@ -109,6 +115,45 @@ inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& s
   cut_boundaries(input.mesh, curves, result);
   soup = soup_of(input.mesh);
   input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
+}
+
+/// Makes and writes the CAD files, if any are asked for.
+/// \returns what the report says of them; null without any
+/// \throws Unsound_shape if they would not be right, and the user does not want them then
+inline Json write_cad_files(const Task& task, const Options& options, const Mesh& mesh, const Segmentation& result,
+                            const std::vector<Segment>& segments, Stages& stages, Output_files& files) {
+#ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
+  if (!options.has_cad_files()) return {};
+  const auto callback = stages.start("surfaces and edges");
+  const Dual dual(mesh);
+  std::vector<std::size_t> labels = result.label;
+  const std::vector<std::size_t> label_of_number = dual.read_segments(face_map(mesh, labels));
+  const Cad_shape shape(dual, label_of_number, result.surfaces, options.unit.value_or(length_units[0]), callback);
+  if (!shape.defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape.defect());
+  files.write_cad_files(shape, name_of_mesh(task.mesh), segments);
+  return shape.report();
+#else
+  static_cast<void>(task), static_cast<void>(options), static_cast<void>(mesh), static_cast<void>(result);
+  static_cast<void>(segments), static_cast<void>(stages), static_cast<void>(files);
+  return {};
+#endif
+}
+
+/// What is odd about CAD files.
+inline std::vector<std::string> remarks_on_cad_files(const Json& report, bool is_unit_given) {
+  std::vector<std::string> remarks;
+  if (report.is_null()) return remarks;
+  if (!is_unit_given) remarks.push_back("the CAD file takes the coordinates for millimetres; --unit tells others");
+  if (const auto triangles = report["triangles"].get<std::size_t>(); triangles > 0)
+    remarks.push_back(counted(triangles, "triangle") + " of the mesh, which no surface fits, stayed in the CAD file");
+  if (const auto defect = report["defect"].get<std::string>(); !defect.empty())
+    remarks.push_back("the CAD file is not right: " + defect);
+  return remarks;
+}
+
+/// Whether a CAD file was written that is not right.
+inline bool has_unsound_shape(const Json& report) {
+  return report.contains("cad") && !report["cad"]["defect"].get<std::string>().empty();
 }
 
 /// The walls that the user asks for.
@@ -176,8 +221,9 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
     stages.start("caps");
     closed = closed_parts(input.mesh, result.label);
   }
-  stages.start("writing");
   const std::vector<Segment> all_segments = segments_of(input.mesh, result.label);
+  const Json cad_report = write_cad_files(task, options, input.mesh, result, all_segments, stages, files);
+  stages.start("writing");
   const auto faces = faces_in_file_order(soup, input);
   const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
   files.write(soup, closed ? &*closed : nullptr, faces, result, segments);
@@ -187,8 +233,10 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   Json report = report_of(task.mesh, soup, input.remarks, left_out.size(), parameters_of(options, method), result,
                           segments, stages.milliseconds());
   if (closed) add_closed_parts(report, *closed);
+  if (!cad_report.is_null()) report["cad"] = cad_report;
   files.commit(report);
   if (closed) remark(closed->remarks);
+  remark(remarks_on_cad_files(cad_report, options.unit.has_value()));
   remark(remarks_on(result, options.has_seeds() || options.is_coarse));
   return report;
 }

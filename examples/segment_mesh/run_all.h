@@ -78,6 +78,7 @@ inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options)
     try {
       const Json report = run(task, options, title);
       journal.write(report);
+      failed += has_unsound_shape(report);
       if (!is_quiet) std::printf("%s: %s\n", task.mesh.c_str(), counted(report["segments"].size(), "segment").c_str());
     } catch (const std::exception&) {
       const Outcome outcome = failure(task.mesh, options);

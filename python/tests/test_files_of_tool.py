@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -320,3 +322,74 @@ def test_answers_to_a_folder_are_checked_by_a_second_reader(tool: Path, tmp_path
     checked = check_folder(wrong, meshes)
     assert checked.returncode == 1
     assert "sphere.stl: the box is" in checked.stdout
+
+
+def drum_off(sides: int) -> str:
+    """Write a cylinder of radius 1 and height 2 on the plane z = 0, its lids fans round their centres."""
+    angles = 2 * np.pi * np.arange(sides) / sides
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    points = [(x, y, z) for z in (0.0, 2.0) for x, y in ring] + [(0.0, 0.0, 0.0), (0.0, 0.0, 2.0)]
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces += [
+            (i, j, sides + j),
+            (i, sides + j, sides + i),
+            (j, i, 2 * sides),
+            (sides + i, sides + j, 2 * sides + 1),
+        ]
+    lines = ["OFF", f"{len(points)} {len(faces)} 0"]
+    lines += [" ".join(map(repr, map(float, point))) for point in points]
+    lines += [f"3 {a} {b} {c}" for a, b, c in faces]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture(scope="session")
+def drum(tool: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Let the tool write a solid for CAD systems in all formats, from a mesh in centimetres."""
+    output = subprocess.run([tool, "--help"], check=True, capture_output=True, text=True).stdout
+    if "this one lacks it" in output and os.environ.get("CI") != "true":
+        pytest.skip("segment_mesh was built without Open CASCADE")
+    folder = tmp_path_factory.mktemp("cad")
+    (folder / "drum.off").write_text(drum_off(48))
+    outputs = [word for ending in ("step", "iges", "brep") for word in ("-o", f"drum.{ending}")]
+    subprocess.run([tool, "drum.off", "--engineering", "--unit", "cm", "--quiet", *outputs], check=True, cwd=folder)
+    return folder
+
+
+@pytest.mark.parametrize("ending", ["step", "iges", "brep"])
+def test_gmsh_reads_and_fills_the_solid(drum: Path, ending: str) -> None:
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(drum / f"drum.{ending}"))
+        types = sorted(gmsh.model.getType(*surface) for surface in gmsh.model.getEntities(2))
+        assert types == ["Cylinder", "Cylinder", "Plane", "Plane"]
+        solids = gmsh.model.getEntities(3)
+        assert len(solids) == 1
+        # Gmsh's own unit is the millimetre.
+        assert gmsh.model.occ.getMass(*solids[0]) == pytest.approx(2000 * np.pi, rel=1e-6)
+        gmsh.model.mesh.generate(3)
+        assert sum(len(tags) for tags in gmsh.model.mesh.getElements(3)[1]) > 0
+    finally:
+        gmsh.finalize()
+
+
+def test_freecad_reads_a_closed_solid(drum: Path) -> None:
+    program = shutil.which("freecadcmd")
+    if program is None:
+        pytest.skip("FreeCAD is not installed")
+    script = drum / "read.py"
+    script.write_text(
+        "import json, Part\n"
+        "shape = Part.read('drum.step')\n"
+        "types = sorted(type(face.Surface).__name__ for face in shape.Faces)\n"
+        "print('FOUND ' + json.dumps([shape.isValid(), len(shape.Solids), shape.Volume, types]))\n"
+    )
+    output = subprocess.run([program, str(script)], check=True, capture_output=True, text=True, cwd=drum).stdout
+    found = next(line for line in output.splitlines() if line.startswith("FOUND "))
+    is_valid, solids, volume, types = json.loads(found.removeprefix("FOUND "))
+    assert is_valid
+    assert solids == 1
+    assert volume == pytest.approx(2000 * np.pi, rel=1e-6)
+    assert types == ["Cylinder", "Cylinder", "Plane", "Plane"]

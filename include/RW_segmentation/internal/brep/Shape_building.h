@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_BREP_SHAPE_BUILDING_H
+#define RW_SEGMENTATION_INTERNAL_BREP_SHAPE_BUILDING_H
+
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/brep/Halfedge_triangles.h>
+#include <RW_segmentation/internal/brep/Patch.h>
+#include <RW_segmentation/internal/brep/Patch_division.h>
+#include <RW_segmentation/internal/brep/Shape_attempt.h>
+
+#include <TopoDS_Face.hxx>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal::brep {
+
+/// Makes the faces of a shape. Those that the kernel refuses are made once more in the next best way, with all others,
+/// since they share edges.
+class Shape_building {
+ public:
+  /// \param segment_of_triangle numbers of surfaces
+  Shape_building(const Halfedge_triangles& mesh, const std::vector<Analytic_surface>& surfaces,
+                 std::vector<std::size_t> segment_of_triangle, const Progress& progress)
+      : mesh_(mesh), division_(mesh, surfaces) {
+    absorb_slivers(mesh, surfaces, segment_of_triangle);
+    std::vector<std::size_t> all(mesh.number_of_triangles());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    for (auto& part : mesh.parts(all, segment_of_triangle)) {
+      const std::size_t segment = segment_of_triangle[part[0]];
+      for (Patch& patch : division_.divided(segment, std::move(part), Form::surface))
+        bases_.push_back(std::move(patch));
+    }
+    // Each round takes one or more patches one way further, and most need none; the bar comes nearer to its end.
+    double done = 0;
+    do {
+      progress(done);
+      done += (1 - done) / 2;
+    } while (!attempt());
+    progress(1);
+  }
+
+  /// What became faces, with triangles one by one.
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// By patch; null for a triangle of no area.
+  const std::vector<TopoDS_Face>& faces() const { return faces_; }
+  /// By patch.
+  const std::vector<double>& tolerances() const { return tolerances_; }
+  std::size_t patch_of(std::size_t triangle) const { return patch_of_[triangle]; }
+  /// How many faces were refused, by the reasons.
+  const std::map<std::string, std::size_t>& refusals() const { return refusals_; }
+  std::size_t number_of_edges() const { return number_of_edges_; }
+
+ private:
+  /// \returns whether all is done
+  bool attempt() {
+    separate_triangles();
+    const Shape_attempt attempt(mesh_, patches_, valid_borders_);
+    std::map<std::size_t, Step> next;  // of bases
+    for (const Rejection& rejection : attempt.rejections()) {
+      const std::size_t base = base_of_[rejection.patch];
+      if (bases_[base].has_triangles()) continue;
+      const Step step = next_step(bases_[base], rejection);
+      const auto [found, is_new] = next.emplace(base, step);
+      if (is_new) ++refusals_[rejection.reason];
+      found->second = std::max(found->second, step);
+    }
+    if (next.empty()) {
+      faces_ = attempt.faces();
+      faces_.resize(patches_.size());
+      tolerances_ = attempt.tolerances();
+      number_of_edges_ = attempt.borders().chains().size();
+      patch_of_.resize(mesh_.number_of_triangles());
+      for (std::size_t t = 0; t < patch_of_.size(); ++t) patch_of_[t] = attempt.borders().patch_of(t);
+      return true;
+    }
+    remake(next);
+    return false;
+  }
+
+  /// What helps a patch that was refused, the gentlest first.
+  enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, become_triangles };
+
+  static Step next_step(const Patch& patch, const Rejection& rejection) {
+    constexpr std::size_t too_few_to_halve = 3;
+    const bool is_far = rejection.cause == Rejection::Cause::edge_far_from_surface;
+    const bool takes_chords = rejection.cause == Rejection::Cause::face_not_valid && patch.triangles.size() > 2;
+    if (patch.form == Form::surface && takes_chords) return Step::take_chords;
+    if (!patch.is_free_form()) return is_far ? Step::leave_out_far_triangles : Step::become_free_form;
+    if (patch.form == Form::free_form && takes_chords) return Step::take_chords;
+    return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::become_triangles;
+  }
+
+  void remake(const std::map<std::size_t, Step>& next) {
+    std::vector<Patch> bases;
+    for (std::size_t i = 0; i < bases_.size(); ++i) {
+      const auto found = next.find(i);
+      if (found == next.end())
+        bases.push_back(std::move(bases_[i]));
+      else
+        for (Patch& patch : remade(bases_[i], found->second)) bases.push_back(std::move(patch));
+    }
+    bases_ = std::move(bases);
+  }
+
+  std::vector<Patch> remade(const Patch& patch, Step step) {
+    switch (step) {
+      case Step::take_chords:
+        return division_.divided(patch.segment, patch.triangles,
+                                 patch.is_free_form() ? Form::free_form_with_chords : Form::surface_with_chords);
+      case Step::leave_out_far_triangles:
+        return division_.without_far_triangles(patch);
+      case Step::become_free_form:
+        return division_.divided(patch.segment, patch.triangles, Form::free_form);
+      case Step::halve:
+        return division_.halved(patch);
+      case Step::become_triangles:
+        break;
+    }
+    return division_.divided(patch.segment, patch.triangles, Form::triangles);
+  }
+
+  void separate_triangles() {
+    patches_.clear();
+    base_of_.clear();
+    for (std::size_t i = 0; i < bases_.size(); ++i) {
+      const Patch& base = bases_[i];
+      if (!base.has_triangles()) {
+        patches_.push_back(base);
+        base_of_.push_back(i);
+        continue;
+      }
+      for (const std::size_t t : base.triangles) {
+        patches_.push_back({base.segment, {t}, base.form, nullptr});
+        base_of_.push_back(i);
+      }
+    }
+  }
+
+  const Halfedge_triangles& mesh_;
+  Patch_division division_;
+  std::vector<Patch> bases_, patches_;
+  std::vector<std::size_t> base_of_;  // by patch
+  Valid_borders valid_borders_;
+  std::vector<TopoDS_Face> faces_;
+  std::vector<double> tolerances_;
+  std::vector<std::size_t> patch_of_;  // by triangle
+  std::map<std::string, std::size_t> refusals_;
+  std::size_t number_of_edges_ = 0;
+};
+
+}  // namespace RW_segmentation::internal::brep
+
+#endif

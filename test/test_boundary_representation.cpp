@@ -1,0 +1,307 @@
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <gtest/gtest.h>
+#include "meshes.h"
+#include "solids.h"
+
+// Open CASCADE has a macro Handle(...), and OpenMesh a class: those headers come first.
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/boundary_representation.h>
+
+#include <TopAbs_ShapeEnum.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+constexpr double pi = solids::half_turn;
+
+Analytic_surface surface_of(const solids::Surface& truth) {
+  Analytic_surface surface;
+  surface.type = static_cast<Surface_type>(truth.type);
+  surface.point = truth.point;
+  surface.direction = truth.direction;
+  surface.radius = truth.radius;
+  surface.tube_radius = truth.tube_radius;
+  surface.half_angle = truth.half_angle;
+  return surface;
+}
+
+std::vector<Analytic_surface> surfaces_of(const solids::Solid& solid) {
+  std::vector<Analytic_surface> surfaces;
+  for (const solids::Surface& s : solid.surfaces) surfaces.push_back(surface_of(s));
+  return surfaces;
+}
+
+Boundary_representation represented(const solids::Solid& solid, const std::vector<Analytic_surface>& surfaces,
+                                    double scale = 1) {
+  const auto mesh = meshes::surface_mesh({solid.points, solid.faces});
+  const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
+  return boundary_representation(mesh, ids, surfaces, scale);
+}
+
+Boundary_representation represented(const solids::Solid& solid) { return represented(solid, surfaces_of(solid)); }
+
+/// The segments that have a face of the type of their surface.
+std::set<std::size_t> segments_on_their_surfaces(const Boundary_representation& result,
+                                                 const std::vector<Analytic_surface>& surfaces) {
+  std::set<std::size_t> segments;
+  for (const Boundary_face& face : result.faces)
+    if (face.type == surfaces[face.segment].type) segments.insert(face.segment);
+  return segments;
+}
+
+/// Two solids as one mesh.
+solids::Solid joined(solids::Solid a, const solids::Solid& b) {
+  const std::size_t points = a.points.size(), surfaces = a.surfaces.size();
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (auto face : b.faces) {
+    for (std::size_t& v : face) v += points;
+    a.faces.push_back(face);
+  }
+  for (const std::size_t label : b.label) a.label.push_back(label + surfaces);
+  a.surfaces.insert(a.surfaces.end(), b.surfaces.begin(), b.surfaces.end());
+  return a;
+}
+
+/// A box as small as a part of `solids::box()`, its centre elsewhere.
+solids::Solid small_box(double size, const solids::Point& centre) {
+  solids::Solid box = solids::box(solids::by_kernel());
+  for (solids::Point& p : box.points) p = size * p + centre;
+  for (solids::Surface& s : box.surfaces) s.point = size * s.point + centre;
+  return box;
+}
+
+void turn_inside_out(solids::Solid& solid) {
+  for (auto& face : solid.faces) std::swap(face[1], face[2]);
+}
+
+/// A ring, all of it on one torus.
+solids::Solid ring(double radius, double tube_radius) {
+  solids::Builder builder("ring");
+  const std::size_t label = builder.add(solids::torus({0, 0, 0}, solids::Point::UnitZ(), radius, tube_radius));
+  solids::revolve(builder, label, 48, 24,
+                  solids::arc({radius, 0, 0}, tube_radius * solids::Point::UnitX(),
+                              tube_radius * solids::Point::UnitZ(), 0, 2 * pi));
+  return std::move(builder).solid();
+}
+
+/// A box of sides 2, 2 and 1 whose top is a wave.
+solids::Solid box_with_wave() {
+  solids::Builder builder("wave");
+  constexpr std::size_t steps = 24;
+  const auto height = [](double x, double y) { return 1 + 0.2 * std::sin(2 * x) * std::cos(1.5 * y); };
+  const auto at = [&](double x, double y, double share) { return solids::Point(x, y, share * height(x, y)); };
+  const auto plane = [&](const solids::Point& p, const solids::Point& n) { return builder.add(solids::plane(p, n)); };
+  builder.grid(plane({0, 0, 0}, {0, 0, -1}), steps, steps,
+               [&](double u, double v) { return at(2 * v - 1, 2 * u - 1, 0); });
+  builder.grid(plane({0, 0, 1}, {0, 0, 1}), steps, steps,
+               [&](double u, double v) { return at(2 * u - 1, 2 * v - 1, 1); });
+  builder.grid(plane({1, 0, 0}, {1, 0, 0}), steps, 4, [&](double u, double v) { return at(1, 2 * u - 1, v); });
+  builder.grid(plane({-1, 0, 0}, {-1, 0, 0}), steps, 4, [&](double u, double v) { return at(-1, 1 - 2 * u, v); });
+  builder.grid(plane({0, 1, 0}, {0, 1, 0}), steps, 4, [&](double u, double v) { return at(1 - 2 * u, 1, v); });
+  builder.grid(plane({0, -1, 0}, {0, -1, 0}), steps, 4, [&](double u, double v) { return at(2 * u - 1, -1, v); });
+  return std::move(builder).solid();
+}
+
+void expect_relative(double value, double expected, double error) {
+  EXPECT_NEAR(value, expected, error * std::abs(expected));
+}
+
+}  // namespace
+
+TEST(Boundary_representation, HasAValidFaceOnEachSurfaceOfASolid) {
+  for (const auto& meshing : {solids::even(0.25), solids::by_kernel()})
+    for (const solids::Solid& solid : solids::all(meshing)) {
+      SCOPED_TRACE(solid.name + (meshing.is_even ? ", even" : ", by a kernel"));
+      const auto surfaces = surfaces_of(solid);
+      const Boundary_representation result = represented(solid, surfaces);
+      EXPECT_EQ(result.defect(), "");
+      EXPECT_EQ(result.shape.ShapeType(), TopAbs_SOLID);
+      EXPECT_EQ(result.number_of_triangles(), 0U);
+      EXPECT_EQ(result.number_of_faces(Surface_type::free_form), 0U);
+      EXPECT_EQ(segments_on_their_surfaces(result, surfaces).size(), surfaces.size());
+      for (const Boundary_face& face : result.faces) {
+        EXPECT_EQ(face.type, surfaces[face.segment].type);
+        EXPECT_LE(face.tolerance, 1e-3 * solid.diagonal());
+      }
+    }
+}
+
+TEST(Boundary_representation, OfABoxIsTheBox) {
+  const Boundary_representation result = represented(solids::box(solids::even(0.3)));
+  EXPECT_EQ(result.faces.size(), 6U);
+  EXPECT_EQ(result.report.edges, 12U);
+  expect_relative(result.report.volume, 6, 1e-12);
+  expect_relative(result.report.area, 22, 1e-12);
+}
+
+TEST(Boundary_representation, HasTheAreaAndTheVolumeOfTheShapeAndNotOfTheChords) {
+  for (const auto& meshing : {solids::even(0.3), solids::by_kernel()}) {
+    const double r = 0.6, length = 2;
+    const Boundary_representation capsule = represented(solids::capsule(meshing));
+    expect_relative(capsule.report.area, 2 * pi * r * length + 4 * pi * r * r, 1e-5);
+    expect_relative(capsule.report.volume, pi * r * r * length + 4 * pi * r * r * r / 3, 1e-5);
+    EXPECT_LT(capsule.report.mesh_volume, 0.999 * capsule.report.volume);
+
+    const double a = 2, b = 3, c = 1.5, round = 0.3;
+    const Boundary_representation box = represented(solids::rounded_box(meshing));
+    expect_relative(box.report.area,
+                    2 * (a * b + b * c + c * a) + 2 * pi * round * (a + b + c) + 4 * pi * round * round, 1e-5);
+    expect_relative(box.report.volume,
+                    a * b * c + 2 * round * (a * b + b * c + c * a) + pi * round * round * (a + b + c) +
+                        4 * pi * round * round * round / 3,
+                    1e-5);
+  }
+}
+
+TEST(Boundary_representation, CutsWhatClosesRoundItselfIntoFacesWithoutSeams) {
+  const double radius = 1.2, tube_radius = 0.4;
+  const Boundary_representation result = represented(ring(radius, tube_radius));
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_GE(result.number_of_faces(Surface_type::torus), 4U);
+  EXPECT_EQ(result.number_of_faces(Surface_type::torus), result.faces.size());
+  expect_relative(result.report.area, 4 * pi * pi * radius * tube_radius, 1e-5);
+  expect_relative(result.report.volume, 2 * pi * pi * radius * tube_radius * tube_radius, 1e-5);
+}
+
+TEST(Boundary_representation, FitsASurfaceToAFreeForm) {
+  const solids::Solid solid = box_with_wave();
+  std::vector<Analytic_surface> surfaces = surfaces_of(solid);
+  surfaces[1] = Analytic_surface();
+  const Boundary_representation result = represented(solid, surfaces);
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.faces.size(), 6U);
+  EXPECT_EQ(result.number_of_faces(Surface_type::free_form), 1U);
+  for (const Boundary_face& face : result.faces) EXPECT_LE(face.distance_of_mesh, 1e-4);
+  // The integral of the wave over the square is 0.
+  expect_relative(result.report.volume, 4, 1e-4);
+}
+
+TEST(Boundary_representation, OfAMeshWithABorderIsAShell) {
+  solids::Solid solid = solids::stepped_shaft(solids::even(0.4));
+  for (std::size_t f = solid.faces.size(); f-- > 0;)
+    if (solid.label[f] == 0) {
+      solid.faces.erase(solid.faces.begin() + static_cast<std::ptrdiff_t>(f));
+      solid.label.erase(solid.label.begin() + static_cast<std::ptrdiff_t>(f));
+    }
+  const Boundary_representation result = represented(solid);
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.shape.ShapeType(), TopAbs_SHELL);
+  EXPECT_EQ(result.report.open_shells, 1U);
+  EXPECT_EQ(result.report.solids, 0U);
+}
+
+TEST(Boundary_representation, HasASolidForEachComponentAndVoidsInThem) {
+  solids::Solid hole = small_box(0.3, {0.2, 0.1, 0});
+  turn_inside_out(hole);
+  const solids::Solid solid = joined(joined(hole, solids::box(solids::by_kernel())), small_box(0.5, {5, 0, 0}));
+  const Boundary_representation result = represented(solid);
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.shape.ShapeType(), TopAbs_COMPOUND);
+  EXPECT_EQ(result.report.solids, 2U);
+  EXPECT_EQ(result.report.voids, 1U);
+  expect_relative(result.report.volume, 6 - 6 * 0.027 + 6 * 0.125, 1e-12);
+}
+
+TEST(Boundary_representation, TurnsASolidThatIsInsideOut) {
+  solids::Solid solid = solids::box(solids::by_kernel());
+  turn_inside_out(solid);
+  const Boundary_representation result = represented(solid);
+  EXPECT_EQ(result.defect(), "");
+  expect_relative(result.report.volume, 6, 1e-12);
+}
+
+TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
+  const solids::Solid solid = solids::stepped_shaft(solids::even(0.4));
+  for (const Surface_type wrong : analytic_types) {
+    SCOPED_TRACE(name_of(wrong));
+    std::vector<Analytic_surface> surfaces = surfaces_of(solid);
+    surfaces[2].type = wrong;  // a cylinder
+    surfaces[2].half_angle = 0.3;
+    surfaces[2].tube_radius = 0.2;
+    const Boundary_representation result = represented(solid, surfaces);
+    EXPECT_EQ(result.defect(), "");
+    expect_relative(result.report.volume, result.report.mesh_volume, 0.03);
+  }
+}
+
+TEST(Boundary_representation, IsScaled) {
+  const solids::Solid solid = solids::flange(solids::by_kernel());
+  const Boundary_representation one = represented(solid), inches = represented(solid, surfaces_of(solid), 25.4);
+  EXPECT_EQ(inches.defect(), "");
+  EXPECT_EQ(inches.faces.size(), one.faces.size());
+  expect_relative(inches.report.volume, 25.4 * 25.4 * 25.4 * one.report.volume, 1e-6);
+  expect_relative(inches.report.mesh_area, 25.4 * 25.4 * one.report.mesh_area, 1e-12);
+}
+
+TEST(Boundary_representation, TakesPolygons) {
+  const auto mesh = meshes::surface_mesh({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}},
+                                          {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}});
+  std::vector<std::size_t> ids = {0, 1, 2, 3, 4};
+  const std::vector<Analytic_surface> free_forms(5);
+  const Boundary_representation result = boundary_representation(
+      mesh, boost::make_iterator_property_map(ids.begin(), get(boost::face_index, mesh)), free_forms);
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.number_of_faces(Surface_type::plane), 5U);
+  expect_relative(result.report.volume, 1. / 3, 1e-12);
+}
+
+TEST(Boundary_representation, SaysWhatIsWrongWithItsArguments) {
+  const solids::Solid solid = solids::box(solids::by_kernel());
+  EXPECT_THROW(represented(solid, std::vector<Analytic_surface>(5)), std::invalid_argument);
+  for (const double scale : {0., -1., std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(represented(solid, surfaces_of(solid), scale), std::invalid_argument);
+  EXPECT_THROW(represented(solids::Solid()), std::invalid_argument);
+}
+
+TEST(Boundary_representation, CanBeCancelled) {
+  const solids::Solid solid = solids::box(solids::by_kernel());
+  const auto mesh = meshes::surface_mesh({solid.points, solid.faces});
+  const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
+  std::vector<double> fractions;
+  boundary_representation(mesh, ids, surfaces_of(solid), 1, CGAL::parameters::callback([&](double fraction) {
+                            fractions.push_back(fraction);
+                            return true;
+                          }));
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1);
+  EXPECT_THROW(boundary_representation(mesh, ids, surfaces_of(solid), 1,
+                                       CGAL::parameters::callback([](double) { return false; })),
+               Cancelled);
+}
+
+TEST(Boundary_representation, ThatIsNotTheMeshHasADefect) {
+  const Boundary_representation sound = represented(solids::box(solids::by_kernel()));
+  ASSERT_EQ(sound.defect(), "");
+  Boundary_representation changed = sound;
+  changed.report.is_valid = false;
+  changed.report.error = "its border crosses itself";
+  EXPECT_EQ(changed.defect(), "its border crosses itself");
+  changed = sound;
+  changed.report.is_closed = false;
+  EXPECT_NE(changed.defect(), "");
+  changed = sound;
+  changed.report.volume *= 0.8;
+  EXPECT_NE(changed.defect(), "");
+  changed = sound;
+  changed.report.area *= 1.2;
+  EXPECT_NE(changed.defect(), "");
+  changed = sound;
+  changed.faces[3].distance_to_mesh = 0.5;
+  EXPECT_NE(changed.defect(), "");
+}
