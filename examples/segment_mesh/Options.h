@@ -198,12 +198,13 @@ inline void check_combinations(const Options& options) {
   if (!options.page.empty() && files.html.empty())
     throw CLI::ValidationError("--page", "nothing would be written to it: give --html, too");
   check_cad_files(options);
+  for (const std::string& path : files.outputs)
+    if (!cad_format_of(path)) format_of_output(path, options);
   const auto has_output = [&](const auto& is_wanted) {
     return std::any_of(files.outputs.begin(), files.outputs.end(), [&](const std::string& path) {
       return !cad_format_of(path) && is_wanted(path, format_of_output(path, options));
     });
   };
-  has_output([](const std::string&, Output_format) { return false; });  // refuses what has no format
   if (options.are_parts_closed && files.split.empty() &&
       !has_output([](const std::string&, Output_format format) { return format == Output_format::three_mf; }))
     throw CLI::ValidationError("--cap-parts", "there are no parts: give --split or an --output .3mf, too");
