@@ -52,8 +52,8 @@ inline std::optional<Edge_curve> circle_through(const std::vector<Point>& points
   if (points.size() < 5) return std::nullopt;
   const bool is_closed = (points.front() - points.back()).norm() <= tolerance;
   const std::size_t size = points.size();
-  const Point a = points.front(), b = points[is_closed ? size / 3 : size / 2],
-              c = is_closed ? points[2 * size / 3] : points.back();
+  const Point &a = points.front(), &b = points[is_closed ? size / 3 : size / 2],
+              &c = is_closed ? points[2 * size / 3] : points.back();
   Point axis = (b - a).cross(c - a);
   if (axis.norm() < 1e-12 * diagonal * diagonal) return std::nullopt;
   axis.normalize();

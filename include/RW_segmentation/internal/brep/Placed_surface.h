@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace RW_segmentation::internal::brep {
 
@@ -31,8 +30,8 @@ class Placed_surface : public Patch_surface {
   /// \param first_v where the period of a torus's second parameter begins
   /// \param height of the frame's origin over the apex of a cone
   /// \param tip_radius within which a point is the tip of a cone
-  Placed_surface(const Analytic_surface& surface, gp_Ax3 frame, double first_v, double height, double tip_radius)
-      : surface_(surface), frame_(std::move(frame)), first_v_(first_v), height_(height), tip_radius_(tip_radius) {
+  Placed_surface(const Analytic_surface& surface, const gp_Ax3& frame, double first_v, double height, double tip_radius)
+      : surface_(surface), frame_(frame), first_v_(first_v), height_(height), tip_radius_(tip_radius) {
     geometry_ = geometry_in_frame();
   }
 
