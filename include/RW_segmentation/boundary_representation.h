@@ -16,6 +16,8 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/brep/Patch.h>
+#include <RW_segmentation/internal/brep/Shape_attempt.h>
 #include <RW_segmentation/internal/brep/Shape_building.h>
 #include <RW_segmentation/internal/brep/Shape_distances.h>
 #include <RW_segmentation/internal/brep/Shell_nesting.h>
@@ -128,12 +130,6 @@ inline Analytic_surface scaled_surface(Analytic_surface surface, double scale) {
   return surface;
 }
 
-inline double area_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties);
-  return properties.Mass();
-}
-
 inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const brep::Shape_building& building,
                                    const brep::Distance_to_mesh& distance, std::size_t patch_number) {
   const brep::Patch& patch = building.patches()[patch_number];
@@ -146,8 +142,8 @@ inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const b
     result.type = Surface_type::plane;
   else if (const auto* placed = dynamic_cast<const brep::Placed_surface*>(patch.surface.get()))
     result.type = placed->type();
-  result.area = area_of(result.face);
-  for (const std::size_t t : patch.triangles) result.mesh_area += mesh.area_vector(t).norm();
+  result.area = brep::area_of(result.face);
+  result.mesh_area = brep::area_of(mesh, patch.triangles);
   result.distance_of_mesh = brep::distance_of_corners(mesh, patch);
   result.distance_to_mesh = result.is_triangle ? 0 : distance.of_face(result.face);
   result.tolerance = building.tolerances()[patch_number];
@@ -222,7 +218,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
 /// Each closed component becomes a solid; one that looks inward and lies in another becomes a void in that; components
 /// with a border become shells. Faces of more than three sides are taken as fans of triangles round their first corner.
 ///
-/// Complexity: linear in the number of triangles, and the times of Open CASCADE for each face and edge.
+/// Complexity: the times of Open CASCADE for each face and edge, of which all are made again as long as one is refused; and
+/// a pass over all triangles for each cut of a patch.
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to integers

@@ -68,7 +68,7 @@ inline std::optional<Edge_curve> circle_through(const std::vector<Point>& points
     if (std::hypot(height, (p - centre - height * axis).norm() - radius) > tolerance) return std::nullopt;
   }
   const gp_Ax2 frame(kernel_point(centre), kernel_direction(axis), kernel_direction(from_centre));
-  double angle = 2 * 3.14159265358979323846;
+  double angle = full_turn;
   if (!is_closed) {
     const Point x = from_centre / radius, y = axis.cross(x);
     const double turn = std::atan2((c - centre).dot(y), (c - centre).dot(x));

@@ -19,6 +19,7 @@
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_HArray1OfPnt2d.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Pnt2d.hxx>
 
 #include <algorithm>
@@ -27,13 +28,13 @@
 
 namespace RW_segmentation::internal::brep {
 
-inline gp_Pnt2d kernel_point(const Parameters& uv) { return {uv[0], uv[1]}; }
+inline gp_Pnt2d kernel_parameters(const Parameters& uv) { return {uv[0], uv[1]}; }
 
 /// The straight way between two pairs of parameters, passed between two parameters of an edge.
 inline Handle(Geom2d_Curve) straight_parameters(const Parameters& a, const Parameters& b, double first, double last) {
   TColgp_Array1OfPnt2d poles(1, 2);
-  poles(1) = kernel_point(a);
-  poles(2) = kernel_point(b);
+  poles(1) = kernel_parameters(a);
+  poles(2) = kernel_parameters(b);
   TColStd_Array1OfReal knots(1, 2);
   knots(1) = first;
   knots(2) = last;
@@ -99,7 +100,8 @@ class Edge_parameters {
 
   Handle(Geom2d_Curve) flat_spline(const Geom_BSplineCurve& spline) const {
     TColgp_Array1OfPnt2d poles(1, spline.NbPoles());
-    for (int i = 1; i <= spline.NbPoles(); ++i) poles(i) = kernel_point(surface_.parameters(point_of(spline.Pole(i))));
+    for (int i = 1; i <= spline.NbPoles(); ++i)
+      poles(i) = kernel_parameters(surface_.parameters(point_of(spline.Pole(i))));
     return new Geom2d_BSplineCurve(poles, spline.Knots(), spline.Multiplicities(), spline.Degree());
   }
 
@@ -132,7 +134,7 @@ class Edge_parameters {
     const Handle(TColgp_HArray1OfPnt2d) values = new TColgp_HArray1OfPnt2d(1, size);
     const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, size);
     for (int i = 0; i < size; ++i) {
-      values->SetValue(i + 1, kernel_point(samples_[static_cast<std::size_t>(i)]));
+      values->SetValue(i + 1, kernel_parameters(samples_[static_cast<std::size_t>(i)]));
       parameters->SetValue(i + 1, edge_.first + (edge_.last - edge_.first) * i / (size - 1));
     }
     Geom2dAPI_Interpolate interpolation(values, parameters, false, 1e-12);

@@ -47,6 +47,12 @@ inline double bulge(const Halfedge_triangles& mesh, const std::vector<std::size_
   return largest;
 }
 
+inline double area_of(const Halfedge_triangles& mesh, const std::vector<std::size_t>& triangles) {
+  double area = 0;
+  for (const std::size_t t : triangles) area += mesh.area_vector(t).norm();
+  return area;
+}
+
 /// The corners of triangles, each once.
 inline std::vector<std::size_t> corners_of(const Halfedge_triangles& mesh, const std::vector<std::size_t>& triangles) {
   std::vector<std::size_t> corners;

@@ -258,9 +258,8 @@ class Patch_division {
 /// Gives slivers to the neighbour on whose surface they lie as well as its own triangles do. Kernels leave such triangles
 /// between faces, and segmentations give them a surface of their own.
 /// \param segment_of_triangle changed
-/// \returns how many pieces
-inline std::size_t absorb_slivers(const Halfedge_triangles& mesh, const std::vector<Analytic_surface>& surfaces,
-                                  std::vector<std::size_t>& segment_of_triangle) {
+inline void absorb_slivers(const Halfedge_triangles& mesh, const std::vector<Analytic_surface>& surfaces,
+                           std::vector<std::size_t>& segment_of_triangle) {
   constexpr std::size_t most_triangles = 12;  // of a sliver
   constexpr double reach = 1e-5;              // of the diagonal
   std::vector<std::size_t> all(mesh.number_of_triangles());
@@ -272,7 +271,6 @@ inline std::size_t absorb_slivers(const Halfedge_triangles& mesh, const std::vec
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     if (is_analytic(s)) own_bulge[s] = bulge(mesh, triangles_of[s], surfaces[s]);
 
-  std::size_t absorbed = 0;
   for (const auto& part : mesh.parts(all, segment_of_triangle)) {
     if (part.size() > most_triangles) continue;
     const std::size_t own = segment_of_triangle[part[0]];
@@ -296,9 +294,7 @@ inline std::size_t absorb_slivers(const Halfedge_triangles& mesh, const std::vec
     }
     if (best == none) continue;
     for (const std::size_t t : part) segment_of_triangle[t] = best;
-    ++absorbed;
   }
-  return absorbed;
 }
 
 }  // namespace RW_segmentation::internal::brep

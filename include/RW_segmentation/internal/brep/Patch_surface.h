@@ -15,6 +15,8 @@
 
 namespace RW_segmentation::internal::brep {
 
+constexpr double full_turn = 6.283185307179586;  // in radians
+
 inline gp_Pnt kernel_point(const Point& p) { return {p.x(), p.y(), p.z()}; }
 inline gp_Dir kernel_direction(const Point& v) { return {v.x(), v.y(), v.z()}; }
 inline Point point_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }

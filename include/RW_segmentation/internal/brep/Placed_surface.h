@@ -21,8 +21,6 @@
 
 namespace RW_segmentation::internal::brep {
 
-constexpr double full_turn = 6.283185307179586;  // in radians
-
 /// A plane, sphere, cylinder, cone or torus in a frame.
 class Placed_surface : public Patch_surface {
  public:

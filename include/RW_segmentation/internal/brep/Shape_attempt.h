@@ -22,6 +22,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
@@ -36,6 +37,12 @@
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
+
+inline double area_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties);
+  return properties.Mass();
+}
 
 /// A patch whose face cannot be made, and why.
 struct Rejection {
@@ -242,12 +249,9 @@ class Shape_attempt {
     if (known != valid_.end() && known->second == border_points_[i]) return;
     if (std::string error = first_error(faces_[i]); !error.empty())
       return reject(i, std::move(error), Rejection::Cause::face_not_valid);
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(faces_[i], properties);
-    double area = 0;
-    for (const std::size_t t : patch.triangles) area += mesh_.area_vector(t).norm();
+    const double area = area_of(mesh_, patch.triangles);
     const double least_area = 1e-6 * mesh_.diagonal() * mesh_.diagonal();
-    if (!(std::abs(properties.Mass() - area) <= largest_error_of_area * area + least_area))
+    if (!(std::abs(area_of(faces_[i]) - area) <= largest_error_of_area * area + least_area))
       reject(i, "its area is not that of its triangles");
     else
       valid_[patch.surface] = border_points_[i];

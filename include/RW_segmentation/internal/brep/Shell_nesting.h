@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_BREP_SHELL_NESTING_H
 
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
+#include <RW_segmentation/internal/brep/Patch_surface.h>
 #include <RW_segmentation/internal/brep/Shape_building.h>
 
 #include <Eigen/Geometry>
@@ -131,8 +132,8 @@ class Shell_nesting {
           a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() + b.dot(c) * a.norm() + c.dot(a) * b.norm();
       half_angles += std::atan2(a.dot(b.cross(c)), denominator);
     }
-    constexpr double quarter_sphere = 3.14159265358979323846;  // half of half of 4 pi
-    return half_angles > quarter_sphere;
+    constexpr double half_of_half_a_sphere = full_turn / 2;  // 4 pi fill the sphere, and these are half angles
+    return half_angles > half_of_half_a_sphere;
   }
 
   static TopoDS_Shape joined(const std::vector<TopoDS_Shape>& shapes) {
