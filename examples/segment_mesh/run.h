@@ -122,21 +122,18 @@ inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& s
 /// \throws Unsound_shape if they would not be right, and the user does not want them then
 inline Json write_cad_files(const Task& task, const Options& options, const Mesh& mesh, const Segmentation& result,
                             const std::vector<Segment>& segments, Stages& stages, Output_files& files) {
-#ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
-  if (!options.has_cad_files()) return {};
-  const auto callback = stages.start("surfaces and edges");
-  const Dual dual(mesh);
-  std::vector<std::size_t> labels = result.label;
-  const std::vector<std::size_t> label_of_number = dual.read_segments(face_map(mesh, labels));
-  const Cad_shape shape(dual, label_of_number, result.surfaces, options.unit.value_or(length_units[0]), callback);
-  if (!shape.defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape.defect());
-  files.write_cad_files(shape, name_of_mesh(task.mesh), segments);
-  return shape.report();
-#else
-  static_cast<void>(task), static_cast<void>(options), static_cast<void>(mesh), static_cast<void>(result);
-  static_cast<void>(segments), static_cast<void>(stages), static_cast<void>(files);
+  if constexpr (writes_cad_files) {
+    if (!options.has_cad_files()) return {};
+    const auto callback = stages.start("surfaces and edges");
+    const Dual dual(mesh);
+    std::vector<std::size_t> labels = result.label;
+    const std::vector<std::size_t> label_of_number = dual.read_segments(face_map(mesh, labels));
+    const Cad_shape shape(dual, label_of_number, result.surfaces, options.unit.value_or(length_units[0]), callback);
+    if (!shape.defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape.defect());
+    files.write_cad_files(shape, name_of_mesh(task.mesh), segments);
+    return shape.report();
+  }
   return {};
-#endif
 }
 
 /// What is odd about CAD files.
