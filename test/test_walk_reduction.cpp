@@ -167,7 +167,8 @@ TEST(SettleBand, FragmentsAreUnionsOfClustersWithoutABandAndThoseOfTheFacesWithO
     return internal::walk_fragments_over_clusters(network, lengths, seeds, reduction, make_solver, {}).of_face;
   };
   const std::vector<std::size_t> unions = fragments();
-  const Face_clusters clusters = internal::clusters_around(seeds, network, lengths, reduction);
+  const Face_clusters clusters = internal::clusters_around(seeds, graph, conductances, lengths,
+                                                           reduction.largest_difference, reduction.cluster_steps);
   for (Index f = 0; f < unions.size(); ++f) EXPECT_EQ(unions[f], unions[clusters.root[clusters.of_face[f]]]);
 
   const auto walked = internal::walk_labels(graph, conductances, seeds, {0, 1, 2, 3});

@@ -43,6 +43,16 @@ struct Dihedral_difference_policy {
   std::vector<double> operator()(const Dual_mesh& mesh) const;
 };
 
+namespace internal {
+
+/// How far the normals of the shape turn inward at each edge, in radians; 0 at convex edges.
+std::vector<double> inward_turns(const Dual_mesh& mesh);
+
+/// The mean turn below which a mesh is flat, since its angles are the rounding of coordinates, in radians.
+double flat_turn(double rounding, double mean_edge_length);
+
+}  // namespace internal
+
 /// The difference that agrees best with people on natural shapes, where normals are smoothed: the concavity in excess of
 /// an ordinary one.
 inline Dihedral_difference_policy smoothed_concavity() { return {0, Dihedral_measure::angle, 1}; }

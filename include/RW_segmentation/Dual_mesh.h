@@ -106,8 +106,8 @@ class Dual_mesh {
   double area(Index face) const { return geometry_->area[face]; }
   /// The length of an edge.
   double edge_length(Index edge) const { return geometry_->edge_length[edge]; }
-  /// Of all faces.
-  double total_area() const { return geometry_->total_area; }
+  /// Of all faces; of the whole where this is a part of it.
+  double total_area() const { return is_part_ ? area_of_whole_ : geometry_->total_area; }
   /// 0 without edges.
   double mean_edge_length() const { return geometry_->mean_edge_length; }
   /// The length R in which boundaries of regions are measured: the root of the total area, 1 for a mesh without area.
@@ -135,8 +135,15 @@ class Dual_mesh {
   /// \param points by vertex, in the unit box, which stays what it is
   Dual_mesh with_points(std::vector<Eigen::Vector3d> points) const;
 
+  /// This mesh as a part of a larger one, whose total area it then tells for its own: lengths that are fractions of
+  /// `length_unit()` are those of the whole.
+  /// \param area_of_whole in the unit box
+  Dual_mesh as_part_of(double area_of_whole) const;
+
  private:
   internal::Unit_box box_;
+  bool is_part_ = false;
+  double area_of_whole_ = 0;
   std::shared_ptr<const Arrays> arrays_;
   std::shared_ptr<const internal::Face_geometry> geometry_;
   std::shared_ptr<const std::vector<Eigen::Vector3d>> points_, shape_normals_;

@@ -10,6 +10,7 @@
 #include <RW_segmentation/internal/merging/Merge_features.h>
 #include <RW_segmentation/internal/named_parameters.h>
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -23,6 +24,7 @@ namespace internal {
 /// by default.
 /// \param thickness by face, not positive where it is not known
 bool is_solid(const std::vector<double>& thickness);
+bool is_solid(std::size_t faces_with_thickness, std::size_t faces);
 
 }  // namespace internal
 
@@ -71,6 +73,19 @@ class Learned_cost {
         size_aware_(std::move(thickness)),
         concavity_(std::make_shared<const internal::Edge_concavity>(shape)),
         trees_(&trees) {}
+
+  /// For a part of a mesh: its regions and boundaries are told by what is ordinary on the whole.
+  /// \param part of the mesh, with the normals of `smoothed_shape()`
+  /// \param thickness by face of the part, as above
+  Learned_cost(const Dual_mesh& part, std::vector<double> thickness, const internal::Mean_concavity& whole)
+      : is_solid_(internal::is_solid(thickness)),
+        size_aware_(std::move(thickness)),
+        concavity_(std::make_shared<const internal::Edge_concavity>(part, whole)),
+        trees_(&internal::learned_trees()) {}
+
+  /// For regions and boundaries that are there already; it can make none.
+  /// \param is_solid whether enough of the whole mesh has a thickness
+  explicit Learned_cost(bool is_solid) : is_solid_(is_solid), trees_(&internal::learned_trees()) {}
 
   /// With a stored thickness, as `local_thickness()` writes it.
   ///

@@ -12,6 +12,8 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>
 
+#include <Eigen/Core>
+
 #include <boost/graph/graph_traits.hpp>
 
 #include <cstddef>
@@ -56,6 +58,26 @@ namespace internal {
 /// \throws std::invalid_argument, Cancelled
 std::vector<double> thickness_of_faces(const Dual_mesh& mesh, const Thickness_sampling& sampling,
                                        const Progress& progress);
+
+/// Where the thickness of a solid is measured that is known in parts.
+struct Thickness_probe {
+  Dual_mesh::Index face;         ///< of the part at hand; no face of it where the probe stands on another one
+  Eigen::Vector3d origin, axis;  ///< in the unit box: the face's centroid, and into the solid
+};
+
+/// Probes on the first faces of a part of a mesh, as evenly spread as on the whole.
+/// \param samples_of_whole on the whole mesh
+/// \param area_before that of the parts before this one
+std::vector<Thickness_probe> thickness_probes(const Dual_mesh& part, std::size_t number_of_faces,
+                                              std::size_t samples_of_whole, double area_before);
+
+/// The distances at which the rays of each probe leave the solid through the first faces of a part, probe by probe;
+/// infinity where they do not.
+std::vector<double> probe_exits(const Dual_mesh& part, std::size_t number_of_faces,
+                                const std::vector<Thickness_probe>& probes, const Thickness_sampling& sampling);
+
+/// The thickness by the exits of the rays of a probe, the nearest ones of all parts; 0 where none leaves the solid.
+double thickness_by_exits(std::vector<double> exits);
 
 /// The thickness by face.
 /// \throws std::invalid_argument, Cancelled

@@ -38,6 +38,26 @@ namespace internal {
 std::vector<Eigen::Vector3d> smooth_normals(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
                                             const Progress& progress = {});
 
+/// How noisy a mesh is: medians of the turn of a face's normal under smoothing, in radians.
+struct Noise_of_mesh {
+  double turn = 0;           ///< with the vertices where they are
+  double smoother_turn = 0;  ///< with the vertices smoothed; known where `turn` tells of heavy noise
+};
+
+/// How far smoothing turns the normal of each face, from which the medians are taken.
+struct Normal_turns {
+  std::vector<double> turn;           ///< in radians
+  std::vector<double> smoother_turn;  ///< with the vertices smoothed; empty where there is no heavy noise
+};
+Normal_turns normal_turns(const Dual_mesh& mesh, const Normal_smoothing& smoothing, const Progress& progress = {});
+
+/// By how much noise widens the radius.
+double widening_by_noise(const Noise_of_mesh& noise, const Normal_smoothing& smoothing);
+
+/// The shape of a part of a mesh, smoothed as far as the noise of the whole asks for.
+Dual_mesh shape_of_part(const Dual_mesh& part, const Normal_smoothing& smoothing, const Noise_of_mesh& whole,
+                        const Progress& progress = {});
+
 /// The core of `smoothed_shape()`.
 Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing, const Progress& progress);
 

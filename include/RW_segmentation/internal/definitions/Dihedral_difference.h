@@ -50,13 +50,20 @@ inline std::vector<double> weighted_angles(const Dual_mesh& mesh, double convex_
   return d;
 }
 
+RW_SEGMENTATION_INLINE std::vector<double> inward_turns(const Dual_mesh& mesh) {
+  return weighted_angles(mesh, 0, Dihedral_measure::angle);
+}
+
+RW_SEGMENTATION_INLINE double flat_turn(double rounding, double mean_edge_length) {
+  return std::max(1e-6, 2 * rounding / std::max(mean_edge_length, 1e-12));
+}
+
 }  // namespace internal
 
 RW_SEGMENTATION_INLINE std::vector<double> Dihedral_difference_policy::operator()(const Dual_mesh& mesh) const {
   internal::require_dihedral_numbers(*this);
   std::vector<double> d = internal::weighted_angles(mesh, convex_weight, measure);
-  // Below this the mesh is flat, and its angles are the rounding of coordinates.
-  const double flat_angle = std::max(1e-6, 2 * mesh.rounding() / std::max(mesh.mean_edge_length(), 1e-12));
+  const double flat_angle = internal::flat_turn(mesh.rounding(), mesh.mean_edge_length());
   internal::divide_by_mean(d, measure == Dihedral_measure::angle ? flat_angle : flat_angle * flat_angle);
   if (ordinary_difference > 0) {
     for (double& value : d)

@@ -106,6 +106,13 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_points(std::vector<Eigen::Vecto
   return result;
 }
 
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::as_part_of(double area_of_whole) const {
+  Dual_mesh result = *this;
+  result.is_part_ = true;
+  result.area_of_whole_ = area_of_whole;
+  return result;
+}
+
 }  // namespace RW_segmentation
 
 #endif

@@ -27,6 +27,11 @@ RW_SEGMENTATION_INLINE Edge_concavity::Edge_concavity(const Dual_mesh& mesh)
   if (mean_excess_ > 0) mean_excess_ /= static_cast<double>(inward_turn_.size());
 }
 
+RW_SEGMENTATION_INLINE Edge_concavity::Edge_concavity(const Dual_mesh& part, const Mean_concavity& whole)
+    : inward_turn_(inward_turns(part)), mean_excess_(whole.excess) {
+  for (double& turn : inward_turn_) turn = whole.turn > 0 ? turn / whole.turn : 0;
+}
+
 RW_SEGMENTATION_INLINE double Edge_concavity::excess_of(Dual_mesh::Index edge) const {
   const double turn = inward_turn_[edge];
   return turn > 1 ? std::sqrt(turn * turn - 1) : 0;
@@ -116,10 +121,14 @@ inline Boundary_shape shape_of_edge(const Dual_mesh& mesh, const Edge_concavity&
 }
 
 RW_SEGMENTATION_INLINE bool is_solid(const std::vector<double>& thickness) {
-  constexpr std::size_t enough = 250;  // half of Thickness_sampling::samples
   const auto known = static_cast<std::size_t>(
       std::count_if(thickness.begin(), thickness.end(), [](double t) { return t > 0 && std::isfinite(t); }));
-  return known > 0 && (known >= enough || 2 * known >= thickness.size());
+  return is_solid(known, thickness.size());
+}
+
+RW_SEGMENTATION_INLINE bool is_solid(std::size_t faces_with_thickness, std::size_t faces) {
+  constexpr std::size_t enough = 250;  // half of Thickness_sampling::samples
+  return faces_with_thickness > 0 && (faces_with_thickness >= enough || 2 * faces_with_thickness >= faces);
 }
 
 // ---- Features ----

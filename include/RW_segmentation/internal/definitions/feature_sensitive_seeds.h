@@ -33,6 +33,26 @@ inline Dual_mesh::Index face_farthest_from_centroid(const Dual_mesh& mesh) {
   return first_greatest(distance);
 }
 
+/// Goes on from a first seed, which is no source yet, to each component that no source reaches, and then to the farthest
+/// face again and again, up to a count.
+/// \throws std::invalid_argument if that is less than the number of components, Cancelled
+inline std::vector<Dual_mesh::Index> farthest_points(Distances_to_sources& distance, std::vector<Dual_mesh::Index> seeds,
+                                                     std::size_t count, const Progress& progress) {
+  for (const auto face : seeds) distance.add_source(face);
+  const auto out_of_reach = reach_all_components(distance);
+  seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());
+  if (seeds.size() > count) {
+    const std::string components = std::to_string(seeds.size()) + ", the number of components without a given seed";
+    throw argument_error("count", count, ("at least " + components).c_str());
+  }
+  while (seeds.size() < count) {
+    progress(static_cast<double>(seeds.size()) / static_cast<double>(count));
+    seeds.push_back(first_greatest(*distance));
+    distance.add_source(seeds.back());
+  }
+  return seeds;
+}
+
 }  // namespace internal
 
 RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> Farthest_point_sampling::operator()(
@@ -43,20 +63,7 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> Farthest_point_sampling::op
   std::vector<Dual_mesh::Index> seeds;
   if (given.empty()) seeds.push_back(internal::face_farthest_from_centroid(mesh));
   for (const auto face : given) distance.add_source(face);
-  for (const auto face : seeds) distance.add_source(face);
-
-  const auto out_of_reach = internal::reach_all_components(distance);
-  seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());
-  if (seeds.size() > count) {
-    const std::string components = std::to_string(seeds.size()) + ", the number of components without a given seed";
-    throw internal::argument_error("count", count, ("at least " + components).c_str());
-  }
-  while (seeds.size() < count) {
-    progress(static_cast<double>(seeds.size()) / static_cast<double>(count));
-    seeds.push_back(internal::first_greatest(*distance));
-    distance.add_source(seeds.back());
-  }
-  return seeds;
+  return internal::farthest_points(distance, std::move(seeds), count, progress);
 }
 
 }  // namespace RW_segmentation

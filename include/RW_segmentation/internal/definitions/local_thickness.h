@@ -39,12 +39,21 @@ class Ray_cone {
   /// The distances to the other side along the rays about the inward normal, as far as they leave the solid.
   void measure(const Triangle_tree& tree, const Dual_mesh& mesh, Dual_mesh::Index face,
                std::vector<double>& distances) const {
-    const Eigen::Vector3d axis = -mesh.normal(face), u = axis.unitOrthogonal(), v = axis.cross(u);
     distances.clear();
+    for_each_exit(tree, mesh.centroid(face), -mesh.normal(face), face, [&](double distance) {
+      if (std::isfinite(distance)) distances.push_back(distance);
+    });
+  }
+
+  /// Calls `use(distance)` for each ray in turn, with the distance at which it leaves the solid; infinity if it does not.
+  /// \param start the face that the rays begin on
+  template <class Use>
+  void for_each_exit(const Triangle_tree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
+                     Dual_mesh::Index start, const Use& use) const {
+    const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
     for (const Ray& ray : rays_) {
       const Eigen::Vector3d side = ray.along_u * u + ray.along_v * v;
-      const double distance = tree.exit_distance(mesh.centroid(face), ray.along_axis * axis + ray.aside * side, face);
-      if (std::isfinite(distance)) distances.push_back(distance);
+      use(tree.exit_distance(origin, ray.along_axis * axis + ray.aside * side, start));
     }
   }
 
@@ -92,6 +101,30 @@ inline double mean_without_outliers(std::vector<double>& values, std::vector<dou
   return number > 0 ? sum / number : 0;
 }
 
+/// Faces that lie evenly over the area, each once: one in the middle of each stretch of the curve that covers the same
+/// area. Those without area are left out.
+/// \param area_before that which the curve has covered before it comes to these triangles
+inline std::vector<Dual_mesh::Index> evenly_spread_faces(const Dual_mesh& mesh, const Triangle_tree& tree,
+                                                         std::size_t samples_of_whole, double area_before) {
+  constexpr double most_samples = 1e15;  // faces that overlap themselves have fans of any size beside their own area
+  std::vector<Dual_mesh::Index> faces;
+  const double area_per_sample = mesh.total_area() / static_cast<double>(samples_of_whole);
+  if (!(area_per_sample > 0)) return faces;
+  std::vector<char> is_sampled(mesh.number_of_faces(), false);
+  double area = area_before;
+  const auto samples_up_to = [&](double a) { return std::round(std::min(a / area_per_sample, most_samples)); };
+  double samples = samples_up_to(area_before);
+  for (const Fan_triangle& triangle : tree.triangles()) {
+    area += triangle.first_side.cross(triangle.second_side).norm() / 2;
+    if (!(area > (samples + 0.5) * area_per_sample)) continue;
+    samples = samples_up_to(area);
+    const Dual_mesh::Index f = triangle.face;
+    if (!is_sampled[f] && !mesh.normal(f).isZero(0)) faces.push_back(f);
+    is_sampled[f] = true;
+  }
+  return faces;
+}
+
 RW_SEGMENTATION_INLINE std::vector<double> thickness_of_faces(const Dual_mesh& mesh, const Thickness_sampling& sampling,
                                                               const Progress& progress) {
   require_cone(sampling.rays, sampling.cone_angle);
@@ -99,24 +132,41 @@ RW_SEGMENTATION_INLINE std::vector<double> thickness_of_faces(const Dual_mesh& m
   const Triangle_tree tree(fan_triangles(mesh));
   constexpr std::size_t samples_between_reports = 100;
   std::vector<double> thickness(mesh.number_of_faces(), 0.), distances;
-  const double area_per_sample = mesh.total_area() / static_cast<double>(sampling.samples);
-  if (!(area_per_sample > 0)) return thickness;
-  constexpr double most_samples = 1e15;  // faces that overlap themselves have fans of any size beside their own area
-  double area = 0;
-  std::size_t samples = 0;
-  for (const Fan_triangle& triangle : tree.triangles()) {
-    // A sample stands in the middle of each stretch of the curve that covers the same area.
-    area += triangle.first_side.cross(triangle.second_side).norm() / 2;
-    if (!(area > (static_cast<double>(samples) + 0.5) * area_per_sample)) continue;
-    if (samples % samples_between_reports == 0)
-      progress(static_cast<double>(samples) / static_cast<double>(sampling.samples));
-    samples = static_cast<std::size_t>(std::llround(std::min(area / area_per_sample, most_samples)));
-    const Dual_mesh::Index f = triangle.face;
-    if (thickness[f] > 0 || mesh.normal(f).isZero(0)) continue;
-    cone.measure(tree, mesh, f, distances);
-    thickness[f] = median_of(distances);
+  const std::vector<Dual_mesh::Index> faces = evenly_spread_faces(mesh, tree, sampling.samples, 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i % samples_between_reports == 0) progress(static_cast<double>(i) / static_cast<double>(faces.size()));
+    cone.measure(tree, mesh, faces[i], distances);
+    thickness[faces[i]] = median_of(distances);
   }
   return thickness;
+}
+
+RW_SEGMENTATION_INLINE std::vector<Thickness_probe> thickness_probes(const Dual_mesh& part, std::size_t number_of_faces,
+                                                                     std::size_t samples_of_whole, double area_before) {
+  std::vector<Thickness_probe> probes;
+  for (const Dual_mesh::Index f :
+       evenly_spread_faces(part, Triangle_tree(fan_triangles(part, number_of_faces)), samples_of_whole, area_before))
+    probes.push_back({f, part.centroid(f), -part.normal(f)});
+  return probes;
+}
+
+RW_SEGMENTATION_INLINE std::vector<double> probe_exits(const Dual_mesh& part, std::size_t number_of_faces,
+                                                       const std::vector<Thickness_probe>& probes,
+                                                       const Thickness_sampling& sampling) {
+  require_cone(sampling.rays, sampling.cone_angle);
+  const Ray_cone cone = Ray_cone::even(sampling.rays, sampling.cone_angle);
+  const Triangle_tree tree(fan_triangles(part, number_of_faces));
+  std::vector<double> exits;
+  exits.reserve(probes.size() * sampling.rays);
+  for (const Thickness_probe& probe : probes)
+    cone.for_each_exit(tree, probe.origin, probe.axis, probe.face,
+                       [&](double distance) { exits.push_back(distance); });
+  return exits;
+}
+
+RW_SEGMENTATION_INLINE double thickness_by_exits(std::vector<double> exits) {
+  exits.erase(std::remove_if(exits.begin(), exits.end(), [](double d) { return !std::isfinite(d); }), exits.end());
+  return median_of(exits);
 }
 
 /// The shape diameter of every face; 0 where no ray leaves the solid and where a face has no area.

@@ -14,10 +14,19 @@
 
 namespace RW_segmentation::internal {
 
+/// What is ordinary on a mesh: means over its edges.
+struct Mean_concavity {
+  double turn = 0;    ///< of the inward turns, in radians; 0: the mesh is flat
+  double excess = 0;  ///< of sqrt(t^2 - 1) over the turns t > 1, as multiples of the mean turn
+};
+
 /// How concave the edges of the smoothed shape are: a measure of the shape, whatever difference fragments are merged with.
 class Edge_concavity {
  public:
   explicit Edge_concavity(const Dual_mesh& mesh);
+
+  /// Of a part of a mesh, by the means of the whole.
+  Edge_concavity(const Dual_mesh& part, const Mean_concavity& whole);
 
   /// How far the normals of the shape turn inward, 1 on average.
   double inward_turn(Dual_mesh::Index edge) const { return inward_turn_[edge]; }

@@ -29,17 +29,22 @@ struct Fan_triangle {
   Dual_graph::Index face;
 };
 
-/// The faces of a mesh as triangles, those of each face fanned out from its first corner.
-inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh) {
+/// The first faces of a mesh as triangles, those of each face fanned out from its first corner.
+inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh, std::size_t number_of_faces) {
   std::vector<Fan_triangle> triangles;
-  triangles.reserve(mesh.number_of_faces());
-  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
+  triangles.reserve(number_of_faces);
+  for (Dual_mesh::Index f = 0; f < number_of_faces; ++f) {
     const auto corners = mesh.corners(f);
     const Eigen::Vector3d& apex = mesh.point(corners[0]);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
       triangles.push_back({apex, mesh.point(corners[k]) - apex, mesh.point(corners[k + 1]) - apex, f});
   }
   return triangles;
+}
+
+/// All faces of a mesh as triangles.
+inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh) {
+  return fan_triangles(mesh, mesh.number_of_faces());
 }
 
 /// A tree of boxes over triangles, in which rays find where they leave the solid.

@@ -5,7 +5,6 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Walk_reduction.h>
-#include <RW_segmentation/internal/walk/Walk_network.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,34 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
+
+/// A way from the root of a cluster to that of a neighbouring one, which has a higher number.
+struct Cluster_way {
+  std::array<Dual_graph::Index, 2> clusters;
+  double conductance;
+};
+
+/// The conductance of a way from one root to an edge, over it, and to the other root.
+inline double conductance_of_way(double resistance, double edge_conductance, double other_resistance) {
+  return edge_conductance > 0 ? 1 / (resistance + 1 / edge_conductance + other_resistance) : 0;
+}
+
+/// The graph of clusters with one edge for all ways between two of them, whose conductances add up.
+inline Dual_graph parallel_ways(std::size_t number_of_clusters, std::vector<Cluster_way> ways,
+                                std::vector<double>& conductances) {
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](const Cluster_way& a, const Cluster_way& b) { return a.clusters < b.clusters; });
+  std::vector<std::array<Dual_graph::Index, 2>> ends;
+  conductances.clear();
+  for (const auto& [clusters, conductance] : ways) {
+    if (ends.empty() || ends.back() != clusters) {
+      ends.push_back(clusters);
+      conductances.push_back(0);
+    }
+    conductances.back() += conductance;
+  }
+  return Dual_graph(number_of_clusters, std::move(ends));
+}
 
 /// Connected clusters of faces with the network of conductances between them: a small stand-in for the dual graph of a
 /// large mesh.
@@ -31,6 +58,7 @@ struct Face_clusters {
   std::vector<Index> root;           ///< the face each cluster has grown from
   Dual_graph graph;                  ///< of the clusters, with one edge between two neighbours
   std::vector<double> conductances;  ///< of the edges between clusters, in their order
+  std::vector<double> resistance;    ///< by face: of the way to it from the root of its cluster
 
   /// \param graph of the faces
   /// \param conductances of its edges
@@ -41,8 +69,8 @@ struct Face_clusters {
   Face_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
                 const std::vector<char>& is_crossed, std::size_t steps, const std::vector<Index>& alone) {
     choose_roots(faces, is_crossed, steps, alone);
-    const std::vector<double> resistance = flood(faces, face_conductances, is_crossed, alone.size());
-    join_clusters(faces, face_conductances, resistance);
+    flood(faces, face_conductances, is_crossed, alone.size());
+    join_clusters(faces, face_conductances);
   }
 
  private:
@@ -74,11 +102,10 @@ struct Face_clusters {
   }
 
   /// Gives each face to a cluster. The first ones do not grow.
-  /// \returns the resistance of the way by which the flood came to each face from its root
-  std::vector<double> flood(const Dual_graph& faces, const std::vector<double>& face_conductances,
-                            const std::vector<char>& is_crossed, std::size_t number_alone) {
+  void flood(const Dual_graph& faces, const std::vector<double>& face_conductances,
+             const std::vector<char>& is_crossed, std::size_t number_alone) {
     of_face.assign(faces.number_of_faces(), none);
-    std::vector<double> resistance(faces.number_of_faces(), 0.);
+    resistance.assign(faces.number_of_faces(), 0.);
     std::vector<Index> reached = root;
     reached.reserve(faces.number_of_faces());
     for (std::size_t c = 0; c < root.size(); ++c) of_face[root[c]] = static_cast<Index>(c);
@@ -91,33 +118,17 @@ struct Face_clusters {
         reached.push_back(neighbour);
       }
     }
-    return resistance;
   }
 
-  void join_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
-                     const std::vector<double>& resistance) {
-    struct Way {
-      std::array<Index, 2> clusters;
-      double conductance;
-    };
-    std::vector<Way> ways;
+  void join_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances) {
+    std::vector<Cluster_way> ways;
     for (Index e = 0; e < faces.number_of_edges(); ++e) {
       const auto [f, g] = faces.faces_of(e);
       const auto [a, b] = std::minmax(of_face[f], of_face[g]);
       if (a == b) continue;
-      const double c = face_conductances[e];
-      ways.push_back({{a, b}, c > 0 ? 1 / (resistance[f] + 1 / c + resistance[g]) : 0});
+      ways.push_back({{a, b}, conductance_of_way(resistance[f], face_conductances[e], resistance[g])});
     }
-    std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.clusters < b.clusters; });
-    std::vector<std::array<Index, 2>> ends;
-    for (const auto& [clusters, conductance] : ways) {
-      if (ends.empty() || ends.back() != clusters) {
-        ends.push_back(clusters);
-        conductances.push_back(0);
-      }
-      conductances.back() += conductance;
-    }
-    graph = Dual_graph(root.size(), std::move(ends));
+    graph = parallel_ways(root.size(), std::move(ways), conductances);
   }
 };
 
@@ -144,19 +155,18 @@ inline std::size_t cluster_steps(std::size_t faces, const Walk_reduction& reduct
 
 /// Clusters for a walk from seeds. They are fine where a walk begins, since a wide seed would be met too often: the faces
 /// around a seed are clusters by themselves, those of the seeds the first ones.
-inline Face_clusters clusters_around(const std::vector<Dual_graph::Index>& seeds, const Walk_network& network,
-                                     const std::vector<double>& edge_length, const Walk_reduction& reduction) {
-  const double least = std::exp(-reduction.largest_difference);
+/// \param steps the least distance between roots
+inline Face_clusters clusters_around(const std::vector<Dual_graph::Index>& seeds, const Dual_graph& graph,
+                                     const std::vector<double>& conductances, const std::vector<double>& edge_length,
+                                     double largest_difference, std::size_t steps) {
+  const double least = std::exp(-largest_difference);
   std::vector<char> is_crossed;
-  is_crossed.reserve(network.conductances.size());
-  for (std::size_t e = 0; e < network.conductances.size(); ++e) {
-    const double conductance = network.conductances[e];
-    is_crossed.push_back(conductance > 0 && conductance >= least * edge_length[e]);
-  }
+  is_crossed.reserve(conductances.size());
+  for (std::size_t e = 0; e < conductances.size(); ++e)
+    is_crossed.push_back(conductances[e] > 0 && conductances[e] >= least * edge_length[e]);
   std::vector<Dual_graph::Index> alone = seeds;
-  const std::size_t steps = cluster_steps(network.graph.number_of_faces(), reduction);
-  add_surroundings(network.graph, steps, alone);
-  return Face_clusters(network.graph, network.conductances, is_crossed, steps, alone);
+  add_surroundings(graph, steps, alone);
+  return Face_clusters(graph, conductances, is_crossed, steps, alone);
 }
 
 }  // namespace RW_segmentation::internal

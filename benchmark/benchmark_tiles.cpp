@@ -1,0 +1,215 @@
+// A mesh cut into tiles beside the same mesh as a whole: how far the segments agree, whether tiles show in them, and what
+// it costs.
+
+#include "measurement.h"
+#include "segmentation_measures.h"
+
+#include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/tiled_segmentation.h>
+
+#include <CLI/CLI.hpp>
+
+#ifdef RW_SEGMENTATION_WITH_METIS
+#include <metis.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace RW_segmentation;
+using namespace measurement;
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> meshes = {"hand"};
+  std::size_t faces = 640000;
+  std::vector<std::size_t> tiles = {2, 8, 32};
+  std::vector<std::string> cuts = {"grid"};
+};
+
+using Face = Mesh::Face_index;
+using Labels = std::vector<std::size_t>;
+
+/// A file, or one of CGAL's data meshes, subdivided until it has as many faces as asked for, or up to half as many.
+Mesh read_subdivided(const std::string& name, std::size_t faces) {
+  Mesh mesh = read_mesh(std::filesystem::exists(name) ? name : data_mesh(name + ".off"));
+  while (4 * mesh.number_of_faces() <= faces)
+    CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
+  if (3 * mesh.number_of_faces() <= faces)
+    CGAL::Subdivision_method_3::Sqrt3_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
+  mesh.collect_garbage();
+  return mesh;
+}
+
+// ---- Cutting ----
+
+/// The tile of each face by its place: boxes of one size, whose longest side is halved, cut in three and so on until there
+/// are enough.
+Labels cut_by_grid(const Dual_mesh_of<Mesh>& mesh, std::size_t tiles) {
+  Eigen::AlignedBox3d box;
+  for (const auto& c : mesh.centroids()) box.extend(c);
+  Eigen::Array3d cells = Eigen::Array3d::Ones();
+  while (cells.prod() < static_cast<double>(tiles)) {
+    Eigen::Index longest = 0;
+    (box.sizes().array() / cells).maxCoeff(&longest);
+    cells[longest] += 1;
+  }
+  Labels tile(mesh.number_of_faces());
+  for (Dual_mesh::Index f = 0; f < tile.size(); ++f) {
+    const Eigen::Array3d place = ((mesh.centroid(f) - box.min()).array() / box.sizes().array() * cells).floor();
+    const Eigen::Array3d cell = place.min(cells - 1).max(0);
+    tile[mesh.face(f)] = static_cast<std::size_t>(cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]));
+  }
+  return tile;
+}
+
+/// The tile of each face by METIS: as many faces in each, and few sides between them.
+Labels cut_by_metis([[maybe_unused]] const Dual_mesh_of<Mesh>& mesh, [[maybe_unused]] std::size_t tiles) {
+#ifdef RW_SEGMENTATION_WITH_METIS
+  std::vector<idx_t> row = {0}, neighbours;
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
+    for (const auto& neighbour : mesh.graph().neighbours(f)) neighbours.push_back(static_cast<idx_t>(neighbour.face));
+    row.push_back(static_cast<idx_t>(neighbours.size()));
+  }
+  auto faces = static_cast<idx_t>(mesh.number_of_faces()), constraints = idx_t(1), parts = static_cast<idx_t>(tiles);
+  idx_t cut = 0;
+  std::vector<idx_t> part(mesh.number_of_faces());
+  if (METIS_PartGraphKway(&faces, &constraints, row.data(), neighbours.data(), nullptr, nullptr, nullptr, &parts,
+                          nullptr, nullptr, nullptr, &cut, part.data()) != METIS_OK)
+    throw std::runtime_error("METIS has failed");
+  Labels tile(part.size());
+  for (Dual_mesh::Index f = 0; f < tile.size(); ++f) tile[mesh.face(f)] = static_cast<std::size_t>(part[f]);
+  return tile;
+#else
+  throw std::runtime_error("--cuts metis needs METIS");
+#endif
+}
+
+/// The tiles of a mesh, and by tile the faces of the mesh that it has.
+std::vector<Tile> cut(const Mesh& mesh, Labels& tile_of_face, std::vector<std::vector<Face>>& faces) {
+  std::map<std::size_t, std::size_t> number;  // without gaps
+  for (std::size_t& tile : tile_of_face) tile = number.emplace(tile, number.size()).first->second;
+  std::vector<Tile> tiles(number.size());
+  faces.assign(number.size(), {});
+  std::vector<std::map<Mesh::Vertex_index, Dual_mesh::Index>> vertex(number.size());
+  for (const Face f : mesh.faces()) {
+    const std::size_t t = tile_of_face[f];
+    faces[t].push_back(f);
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
+      const auto [place, is_new] = vertex[t].emplace(v, static_cast<Dual_mesh::Index>(tiles[t].points.size()));
+      const auto& p = mesh.point(v);
+      if (is_new) tiles[t].points.emplace_back(p.x(), p.y(), p.z());
+      tiles[t].corners.add(place->second);
+    }
+    tiles[t].corners.end_face();
+  }
+  return tiles;
+}
+
+// ---- Measuring ----
+
+/// The share of the length of the edges between tiles that lies between segments.
+double border_share(const Mesh& mesh, const Labels& tile, const Labels& segment) {
+  double between_tiles = 0, between_segments = 0;
+  for (const auto e : mesh.edges()) {
+    if (mesh.is_border(e)) continue;
+    const Face f = mesh.face(mesh.halfedge(e, 0)), g = mesh.face(mesh.halfedge(e, 1));
+    if (tile[f] == tile[g]) continue;
+    const double length = std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+    between_tiles += length;
+    if (segment[f] != segment[g]) between_segments += length;
+  }
+  return between_tiles > 0 ? between_segments / between_tiles : 0;
+}
+
+void measure(const std::string& name, const Arguments& arguments, std::vector<Result>& results) {
+  Mesh mesh = read_subdivided(name, arguments.faces);
+  const auto labels = mesh.add_property_map<Face, std::size_t>("f:segment").first;
+  const auto as_labels = [&] { return Labels(labels.begin(), labels.end()); };
+  const auto segment = [&](std::size_t largest_direct) {
+    Automatic_segmentation policy;
+    policy.reduction.largest_direct = largest_direct;
+    const Stopwatch watch;
+    segmentation_via_random_walks<CGAL::Sequential_tag>(mesh, labels, policy);
+    return watch.milliseconds();
+  };
+  segment(mesh.number_of_faces());
+  const Labels direct = as_labels();
+  const double whole_ms = segment(0);
+  const Labels whole = as_labels();
+  const std::size_t segments_of_whole = std::set<std::size_t>(whole.begin(), whole.end()).size();
+  const double of_reduction = segmentation_measures::Overlaps(direct, whole).rand_index_error();
+
+  const Dual_mesh_of dual(mesh);
+  for (const std::string& kind : arguments.cuts)
+    for (const std::size_t count : arguments.tiles) {
+      Labels tile = kind == "metis" ? cut_by_metis(dual, count) : cut_by_grid(dual, count);
+      std::vector<std::vector<Face>> faces;
+      const std::vector<Tile> tiles = cut(mesh, tile, faces);
+      const Stopwatch watch;
+      const Tiled_hierarchy hierarchy = hierarchy_of_tiles(tiles);
+      const std::size_t segments = Cost_threshold_stop(1)(hierarchy.tree);
+      const auto of_tiles = hierarchy.segments(segments);
+      const double tiled_ms = watch.milliseconds();
+      Labels tiled(mesh.number_of_faces());
+      for (std::size_t t = 0; t < tiles.size(); ++t)
+        for (std::size_t f = 0; f < faces[t].size(); ++f) tiled[faces[t][f]] = of_tiles[t][f];
+      const double error = segmentation_measures::Overlaps(whole, tiled).rand_index_error();
+      const double share = border_share(mesh, tile, tiled), share_of_whole = border_share(mesh, tile, whole);
+      std::printf("%-12s %8zu %-6s %5zu %9.4f %9.4f %8.4f %8.4f %6zu %6zu %9.0f %9.0f %6.2f\n",
+                  std::filesystem::path(name).stem().c_str(), std::size_t(mesh.number_of_faces()), kind.c_str(),
+                  tiles.size(), error, of_reduction, share, share_of_whole, segments, segments_of_whole, tiled_ms,
+                  whole_ms, tiled_ms / whole_ms);
+      std::fflush(stdout);
+      Result& result = results.emplace_back("tiles");
+      result.add("mesh", std::filesystem::path(name).stem().string()).add("faces", std::size_t(mesh.number_of_faces()));
+      result.add("cut", kind).add("tiles", tiles.size()).add("error", error).add("error_of_reduction", of_reduction);
+      result.add("border_share", share).add("border_share_of_whole", share_of_whole);
+      result.add("segments", segments).add("segments_of_whole", segments_of_whole);
+      result.add("tiled_ms", tiled_ms).add("whole_ms", whole_ms);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Arguments arguments;
+  CLI::App app(
+      "Cuts meshes into tiles, segments them tile by tile and as a whole, and compares: the Rand index error between both; "
+      "that between two ways to segment the whole, over faces and over clusters of them; the share of the borders between "
+      "tiles that lies between segments, tiled and whole; segments; time.");
+  app.add_option("--meshes", arguments.meshes, "Files, or names of CGAL's data meshes")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--faces", arguments.faces, "Meshes are subdivided up to so many")->capture_default_str();
+  app.add_option("--tiles", arguments.tiles, "How many")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--cuts", arguments.cuts, "Into boxes, or by METIS where it is there")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"grid", "metis"}))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  std::printf("%-12s %8s %-6s %5s %9s %9s %8s %8s %6s %6s %9s %9s %6s\n", "mesh", "faces", "cut", "tiles", "error",
+              "reduction", "border", "whole", "segm.", "whole", "tiled ms", "whole ms", "ratio");
+  std::vector<Result> results;
+  for (const std::string& mesh : arguments.meshes) measure(mesh, arguments, results);
+  print(results);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "benchmark_tiles: " << error.what() << '\n';
+  return 1;
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_MERGING_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_MERGING_H
+
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/definitions/tile_walk.h>
+#include <RW_segmentation/internal/tiles/Joined_nodes.h>
+#include <RW_segmentation/internal/walk/settle_band.h>
+#include <RW_segmentation/tiled_segmentation.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+namespace internal {
+
+/// What the clusters say of the faces of a tile and its halo.
+struct Coarse_labels {
+  std::vector<std::size_t> fragment;
+  std::vector<char> is_in_band;
+  std::vector<Dual_mesh::Index> seeds;  ///< faces
+};
+
+inline Coarse_labels coarse_labels(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
+                                   const Tile_clusters& clusters, const Tile_seeds& seeds,
+                                   const std::vector<Tile_border>& neighbour_borders,
+                                   const std::vector<Tile_network>& neighbours, const Tile_walk& walk) {
+  using Index = Dual_mesh::Index;
+  Coarse_labels labels;
+  const auto append = [&](std::size_t tile, Index cluster) {
+    labels.fragment.push_back(walk.fragments[tile][cluster]);
+    labels.is_in_band.push_back(walk.bands[tile][cluster]);
+  };
+  for (const Index cluster : clusters) append(number, cluster);
+  labels.seeds = seeds_in(seeds, number);
+  std::map<std::pair<Index, Index>, bool> is_seed;
+  for (const auto& [tile, face] : seeds.seeds) is_seed[{tile, face}] = true;
+  const std::vector<Index>& tiles = plan.tiles[number].neighbours;
+  for (std::size_t h = 0; h < shape.halo.size(); ++h) {
+    const auto [tile, place] = shape.halo[h];
+    const auto n = static_cast<std::size_t>(std::lower_bound(tiles.begin(), tiles.end(), tile) - tiles.begin());
+    append(tile, neighbours[n].border[place]);
+    if (is_seed.count({tile, neighbour_borders[n].faces[place]}) > 0)
+      labels.seeds.push_back(static_cast<Index>(shape.own_faces + h));
+  }
+  return labels;
+}
+
+/// The thickness of the faces of a tile and its halo, 0 where there is no probe.
+inline std::vector<double> thickness_in(const Tile_shape& shape, std::size_t number, const Tile_seeds& seeds,
+                                        const Tile_walk& walk) {
+  std::vector<double> thickness(shape.mesh.number_of_faces(), 0.);
+  for (std::size_t p = 0; p < seeds.probes.size(); ++p)
+    if (seeds.probes[p].tile == number) thickness[seeds.probes[p].probe.face] = walk.thickness[p];
+  return thickness;
+}
+
+/// Sums over the regions of a tile and the edges between them.
+inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const std::vector<std::size_t>& fragment,
+                           const Learned_cost& cost, const Mean_concavity& ordinary) {
+  using Index = Dual_mesh::Index;
+  using Asking = Boundaries_of_cost<Learned_cost, Dual_mesh>;
+  const Dual_mesh& mesh = shape.mesh;
+  Tile_regions result;
+  std::map<Index, Learned_cost::Region> regions;
+  for (Index f = 0; f < shape.own_faces; ++f)
+    cost.join(regions[static_cast<Index>(fragment[f])], cost.region(mesh, f));
+  for (const auto& [number_of_fragment, region] : regions) {
+    result.fragments.push_back(number_of_fragment);
+    result.regions.push_back(region);
+  }
+
+  const Edge_concavity concavity(mesh, ordinary);
+  const auto sums_of = [&](Index e) {
+    return Asking::of_edge(cost, mesh, e, mesh.edge_length(e) / mesh.length_unit(), concavity.excess(e));
+  };
+  std::map<std::array<Index, 2>, Tile_regions::Boundary_sums> boundaries;
+  for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto [f, g] = mesh.graph().faces_of(e);
+    if (f >= shape.own_faces || g >= shape.own_faces || fragment[f] == fragment[g]) continue;
+    const auto [a, b] = std::minmax(fragment[f], fragment[g]);
+    boundaries[{static_cast<Index>(a), static_cast<Index>(b)}] += sums_of(e);
+  }
+  for (const auto& [fragments, common] : boundaries) result.boundaries.push_back({fragments, common});
+  for (const auto& shared : shape.shared_edges) {
+    const bool is_owner = number < shared.neighbour;
+    result.sides.push_back({shared.side, static_cast<Index>(fragment[own_face(shape, shared)]), 0,
+                            is_owner ? sums_of(shared.edge) : Tile_regions::Boundary_sums(), is_owner});
+  }
+  return result;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(
+    const Tile_shape& shape, std::size_t number, const Tile_plan& plan, const Tile_clusters& clusters,
+    const Tile_seeds& seeds, const std::vector<Tile_border>& neighbour_borders,
+    const std::vector<Tile_network>& neighbours, const Tile_walk& walk, Tile_regions& regions,
+    const Progress& progress) {
+  internal::Coarse_labels labels =
+      internal::coarse_labels(shape, number, plan, clusters, seeds, neighbour_borders, neighbours, walk);
+  internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, seeds.ordinary), labels.is_in_band,
+                        labels.seeds, labels.fragment, progress);
+  const Learned_cost cost(shape.mesh, internal::thickness_in(shape, number, seeds, walk), seeds.ordinary);
+  regions = internal::sum_up(shape, number, labels.fragment, cost, seeds.ordinary);
+  const auto end_of_own = labels.fragment.begin() + static_cast<std::ptrdiff_t>(shape.own_faces);
+  return {labels.fragment.begin(), end_of_own};
+}
+
+RW_SEGMENTATION_INLINE Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& tiles,
+                                              const Progress& progress) {
+  using Index = Dual_mesh::Index;
+  const Learned_cost cost(walk.is_solid);
+  std::vector<Learned_cost::Region> regions(walk.number_of_fragments);
+  std::map<std::array<Index, 2>, Tile_regions::Boundary_sums> sums;
+  for (const Tile_regions& tile : tiles) {
+    for (std::size_t i = 0; i < tile.regions.size(); ++i) cost.join(regions[tile.fragments[i]], tile.regions[i]);
+    for (const auto& [fragments, common] : tile.boundaries) sums[fragments] += common;
+  }
+  const internal::Joined_nodes nodes(tiles, [](const Tile_regions&) { return std::size_t(0); });
+  nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
+    if (a != b) sums[{std::min(a, b), std::max(a, b)}] += owner.value;
+  });
+  std::vector<internal::Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries;
+  for (const auto& [fragments, common] : sums) boundaries.push_back({fragments, common});
+  return internal::Region_merging<Learned_cost>(std::move(regions), std::move(boundaries), cost).run(progress);
+}
+
+RW_SEGMENTATION_INLINE std::vector<std::vector<std::size_t>> Tiled_hierarchy::segments(
+    std::size_t number_of_segments) const {
+  const std::vector<std::size_t> segment = tree.segment_of_fragments(number_of_segments);
+  std::vector<std::vector<std::size_t>> result;
+  for (const auto& fragments : fragment_of_face) {
+    result.emplace_back();
+    for (const auto fragment : fragments) result.back().push_back(segment[fragment]);
+  }
+  return result;
+}
+
+RW_SEGMENTATION_INLINE Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles,
+                                                          const Tiled_segmentation& options, const Progress& progress) {
+  const std::size_t count = tiles.size();
+  std::vector<Tile_survey> surveys;
+  for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
+  const Tile_plan plan = plan_tiles(surveys, options);
+  const auto of_neighbours = [&](const auto& of_tiles, std::size_t t) {
+    std::decay_t<decltype(of_tiles)> result;
+    for (const auto n : plan.tiles[t].neighbours) result.push_back(of_tiles[n]);
+    return result;
+  };
+  const auto part = [&](double begin, double end, std::size_t t) {
+    const double share = (end - begin) / static_cast<double>(count);
+    return progress.part(begin + static_cast<double>(t) * share, begin + static_cast<double>(t + 1) * share);
+  };
+
+  std::vector<Tile_border> borders;
+  for (std::size_t t = 0; t < count; ++t) borders.push_back(border_of_tile(tiles[t], t, plan, options, part(0, 0.3, t)));
+  const internal::Noise_of_mesh noise = noise_of_tiles(borders);
+  std::vector<Tile_shape> shapes;
+  std::vector<Tile_outline> outlines(count);
+  for (std::size_t t = 0; t < count; ++t)
+    shapes.push_back(shape_of_tile(tiles[t], t, plan, of_neighbours(borders, t), noise, outlines[t], options,
+                                   part(0.3, 0.6, t)));
+  const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options, progress.part(0.6, 0.65));
+  std::vector<Tile_clusters> clusters;
+  std::vector<Tile_network> networks(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    part(0.65, 0.75, t)(0);
+    clusters.push_back(clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t], options));
+  }
+  const Tile_walk walk = walk_over_tiles(plan, seeds, networks, options, progress.part(0.75, 0.85));
+
+  Tiled_hierarchy hierarchy;
+  std::vector<Tile_regions> regions(count);
+  for (std::size_t t = 0; t < count; ++t)
+    hierarchy.fragment_of_face.push_back(fragments_of_tile(shapes[t], t, plan, clusters[t], seeds,
+                                                           of_neighbours(borders, t), of_neighbours(networks, t), walk,
+                                                           regions[t], part(0.85, 0.95, t)));
+  hierarchy.tree = merge_tiles(walk, regions, progress.part(0.95, 1));
+  hierarchy.components = walk.components;
+  hierarchy.clusters = walk.clusters;
+  hierarchy.turned_sides = seeds.turned_sides;
+  progress(1);
+  return hierarchy;
+}
+
+}  // namespace RW_segmentation
+
+#endif

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_SHAPE_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_SHAPE_H
+
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
+#include <RW_segmentation/internal/tiles/Joined_faces.h>
+#include <RW_segmentation/internal/tiles/Turn_histogram.h>
+#include <RW_segmentation/internal/walk/Face_clusters.h>
+#include <RW_segmentation/tiled_segmentation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+namespace internal {
+
+// ---- Reading ----
+
+/// The points of a tile in the unit box of the whole.
+inline std::vector<Eigen::Vector3d> points_in_box(const Tile& tile, const Unit_box& box) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(tile.points.size());
+  for (const Eigen::Vector3d& p : tile.points) points.push_back(box.scaled(p));
+  return points;
+}
+
+/// A part of the whole, measured as such.
+/// \param[out] turned_sides see `Joined_faces`
+inline Dual_mesh part_of(const Tile_plan& plan, Face_corners corners, std::vector<Eigen::Vector3d> points,
+                         std::size_t& turned_sides) {
+  Joined_faces joined(corners, points.size());
+  turned_sides = joined.turned_sides;
+  const std::size_t faces = corners.number_of_faces();
+  return Dual_mesh({Dual_graph(faces, std::move(joined.sides)), std::move(corners), std::move(joined.ends),
+                    std::move(points), {}},
+                   &plan.box)
+      .as_part_of(plan.total_area);
+}
+
+// ---- The border that neighbours see ----
+
+/// Faces within a distance of some faces, along paths from centroid to centroid; those themselves first.
+/// \param distance_between a function from two neighbouring faces to their distance
+template <class Distance>
+std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph, std::vector<Dual_graph::Index> sources,
+                                            double distance, const Distance& distance_between) {
+  using Index = Dual_graph::Index;
+  std::vector<float> reached(graph.number_of_faces(), std::numeric_limits<float>::infinity());
+  std::vector<Index> within;
+  for (const Index face : sources) {
+    if (reached[face] == 0) continue;
+    reached[face] = 0;
+    within.push_back(face);
+  }
+  // A face is visited again when a shorter path to it is found.
+  std::vector<Index> open = within, next;
+  for (; !open.empty(); open.swap(next)) {
+    next.clear();
+    for (const Index f : open)
+      for (const auto& [g, edge] : graph.neighbours(f)) {
+        const auto through_f = static_cast<float>(reached[f] + distance_between(f, g));
+        if (!(through_f < reached[g]) || through_f > static_cast<float>(distance)) continue;
+        if (std::isinf(reached[g])) within.push_back(g);
+        reached[g] = through_f;
+        next.push_back(g);
+      }
+  }
+  return within;
+}
+
+/// How far a tile is seen by its neighbours, in the unit box.
+inline double width_of_border(const Tile_plan& plan, const Normal_smoothing& smoothing, double widening) {
+  // Smoothing lengths; what lies farther moves a normal by less than e^-4 of its turn.
+  constexpr double smoothing_lengths = 4;
+  return smoothing_lengths * widening * smoothing.radius * std::sqrt(plan.total_area);
+}
+
+/// The faces of a tile up to a distance from the vertices that it shares.
+inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared, Tile_border& border) {
+  using Index = Dual_mesh::Index;
+  std::vector<Index> id(mesh.number_of_vertices(), Tile_border::none);
+  for (const auto& [vertex, number] : shared) id[vertex] = number;
+  std::vector<Index> at_border;
+  for (Index f = 0; f < mesh.number_of_faces(); ++f)
+    for (const Index v : mesh.corners(f))
+      if (id[v] != Tile_border::none) at_border.push_back(f);
+  border.faces = faces_within(mesh.graph(), std::move(at_border), border.width,
+                              [&](Index f, Index g) { return (mesh.centroid(f) - mesh.centroid(g)).norm(); });
+  std::sort(border.faces.begin(), border.faces.end());
+
+  std::vector<Index> number(mesh.number_of_vertices(), Tile_border::none);
+  for (const Index f : border.faces) {
+    for (const Index v : mesh.corners(f)) {
+      if (number[v] == Tile_border::none) {
+        number[v] = static_cast<Index>(border.points.size());
+        border.points.push_back(mesh.point(v));
+        border.ids.push_back(id[v]);
+      }
+      border.corners.add(number[v]);
+    }
+    border.corners.end_face();
+  }
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
+                                                  const Tiled_segmentation& options, const Progress& progress) {
+  std::size_t turned_sides = 0;  // are counted when the tile has its neighbours round it
+  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), turned_sides);
+  Tile_border border;
+  double widening = 1;
+  if (mesh.number_of_faces() > 0) {
+    const internal::Normal_turns turns = internal::normal_turns(mesh, options.smoothing, progress);
+    border.turns = internal::Turn_histogram::counts(turns.turn);
+    border.smoother_turns = internal::Turn_histogram::counts(turns.smoother_turn);
+    widening = internal::widening_by_noise(
+        {internal::Turn_histogram::median(border.turns), internal::Turn_histogram::median(border.smoother_turns)},
+        options.smoothing);
+  }
+  border.width = internal::width_of_border(plan, options.smoothing, std::max(widening, 1.));
+  internal::take_border(mesh, plan.tiles[number].shared_vertices, border);
+  return border;
+}
+
+RW_SEGMENTATION_INLINE internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_border>& borders) {
+  std::vector<std::uint64_t> turns, smoother_turns;
+  for (const Tile_border& border : borders) {
+    internal::Turn_histogram::add(border.turns, turns);
+    internal::Turn_histogram::add(border.smoother_turns, smoother_turns);
+  }
+  return {internal::Turn_histogram::median(turns), internal::Turn_histogram::median(smoother_turns)};
+}
+
+namespace internal {
+
+// ---- A tile with its halo ----
+
+/// Collects the faces of a tile and those of its neighbours' borders that lie near enough.
+class Tile_surroundings {
+ public:
+  using Index = Dual_mesh::Index;
+
+  Tile_surroundings(const Tile& tile, const Tile_plan& plan, std::size_t number,
+                    const std::vector<Tile_border>& neighbours)
+      : plan_(plan), number_(number), points_(points_in_box(tile, plan.box)) {
+    take_faces(tile);
+    add_halo(neighbours);
+  }
+
+  /// \param[out] turned_sides sides at which two tiles are not oriented alike
+  Tile_shape shape(std::size_t& turned_sides) {
+    Tile_shape shape;
+    shape.own_faces = corners_.number_of_faces() - halo_.size();
+    shape.mesh = part_of(plan_, std::move(corners_), std::move(points_), turned_sides);
+    shape.halo = std::move(halo_);
+    std::unordered_map<Index, Index> id_of_vertex;
+    for (const auto& [vertex, id] : plan_.tiles[number_].shared_vertices) id_of_vertex.emplace(vertex, id);
+    for (Index e = 0; e < shape.mesh.number_of_edges(); ++e) {
+      const auto [f, g] = shape.mesh.graph().faces_of(e);
+      if ((f < shape.own_faces) == (g < shape.own_faces)) continue;
+      const auto [u, v] = shape.mesh.ends(e);
+      const auto [low, high] = std::minmax(id_of_vertex.at(u), id_of_vertex.at(v));
+      shape.shared_edges.push_back({e, {low, high}, shape.halo[std::max(f, g) - shape.own_faces].tile});
+    }
+    return shape;
+  }
+
+ private:
+  /// The faces of the tile. Vertices of it that are the same become one.
+  void take_faces(const Tile& tile) {
+    std::vector<Index> number(points_.size());
+    std::iota(number.begin(), number.end(), Index(0));
+    for (const auto& [vertex, id] : plan_.tiles[number_].shared_vertices)
+      number[vertex] = vertex_of_id_.emplace(id, vertex).first->second;
+    corners_.reserve(tile.number_of_faces(), tile.corners.number_of_corners());
+    for (Index f = 0; f < tile.number_of_faces(); ++f) {
+      for (const Index v : tile.corners[f]) corners_.add(number[v]);
+      corners_.end_face();
+    }
+  }
+
+  void add_halo(const std::vector<Tile_border>& neighbours) {
+    // All border faces of all neighbours, glued together.
+    Face_corners corners;
+    std::vector<Tile_shape::Halo_face> faces;
+    std::vector<Eigen::Vector3d> points = points_;
+    std::vector<Index> sources;
+    double width = 0;
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      const Tile_border& border = neighbours[n];
+      width = std::max(width, border.width);
+      std::vector<Index> vertex(border.points.size());
+      for (std::size_t p = 0; p < vertex.size(); ++p) vertex[p] = vertex_of(border, p, points);
+      for (Index f = 0; f < border.corners.number_of_faces(); ++f) {
+        for (const Index p : border.corners[f]) {
+          corners.add(vertex[p]);
+          if (vertex[p] < points_.size()) sources.push_back(static_cast<Index>(faces.size()));
+        }
+        corners.end_face();
+        faces.push_back({plan_.tiles[number_].neighbours[n], f});
+      }
+    }
+    if (sources.empty()) return;
+
+    Joined_faces joined(corners, points.size());
+    const Dual_graph graph(faces.size(), std::move(joined.sides));
+    std::vector<Eigen::Vector3d> centroid;
+    for (Index f = 0; f < faces.size(); ++f) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const Index v : corners[f]) sum += points[v];
+      centroid.push_back(sum / static_cast<double>(corners[f].size()));
+    }
+    std::vector<Index> near = faces_within(graph, std::move(sources), width,
+                                           [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
+    std::sort(near.begin(), near.end());
+
+    std::unordered_map<Index, Index> taken;
+    const std::size_t own_points = points_.size();
+    for (const Index f : near) {
+      for (const Index v : corners[f]) {
+        Index number = v;
+        if (v >= own_points) {
+          const auto [place, is_new] = taken.emplace(v, static_cast<Index>(points_.size()));
+          if (is_new) points_.push_back(points[v]);
+          number = place->second;
+        }
+        corners_.add(number);
+      }
+      corners_.end_face();
+      halo_.push_back(faces[f]);
+    }
+  }
+
+  /// The vertex that a point of a neighbour's border is: one of the tile, or a new one.
+  Index vertex_of(const Tile_border& border, std::size_t point, std::vector<Eigen::Vector3d>& points) {
+    const auto next = static_cast<Index>(points.size());
+    if (border.ids[point] != Tile_border::none) {
+      const auto [place, is_new] = vertex_of_id_.emplace(border.ids[point], next);
+      if (!is_new) return place->second;
+    }
+    points.push_back(border.points[point]);
+    return next;
+  }
+
+  const Tile_plan& plan_;
+  std::size_t number_;
+  Face_corners corners_;  // of the tile, then of its halo
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Tile_shape::Halo_face> halo_;
+  std::unordered_map<Index, Index> vertex_of_id_;
+};
+
+// ---- What the whole must know ----
+
+/// The faces of a tile without their halo, as a graph.
+struct Own_graph {
+  Dual_graph graph;
+  std::vector<Dual_graph::Index> edges;  ///< by edge: its number with the halo
+
+  explicit Own_graph(const Tile_shape& shape) {
+    std::vector<std::array<Dual_graph::Index, 2>> ends;
+    for (Dual_graph::Index e = 0; e < shape.mesh.number_of_edges(); ++e) {
+      const auto& faces = shape.mesh.graph().faces_of(e);
+      if (faces[0] >= shape.own_faces || faces[1] >= shape.own_faces) continue;
+      ends.push_back(faces);
+      edges.push_back(e);
+    }
+    graph = Dual_graph(shape.own_faces, std::move(ends));
+  }
+
+  /// Values by edge, of the tile's own edges alone.
+  std::vector<double> own(const std::vector<double>& values) const {
+    std::vector<double> result;
+    result.reserve(edges.size());
+    for (const auto e : edges) result.push_back(values[e]);
+    return result;
+  }
+};
+
+/// The face of a tile at one of its sides.
+inline Dual_mesh::Index own_face(const Tile_shape& shape, const Tile_shape::Shared_edge& shared) {
+  const auto& faces = shape.mesh.graph().faces_of(shared.edge);
+  return std::min(faces[0], faces[1]);
+}
+
+inline Turn_sums turn_sums(const Tile_shape& shape, const Own_graph& own, std::size_t number) {
+  const std::vector<double> turns = inward_turns(shape.mesh);
+  std::vector<Dual_mesh::Index> counted = own.edges;
+  for (const auto& shared : shape.shared_edges)
+    if (number < shared.neighbour) counted.push_back(shared.edge);
+  Turn_sums sums;
+  std::vector<double> values;
+  for (const auto e : counted) {
+    sums.edges += 1;
+    sums.length += shape.mesh.edge_length(e);
+    sums.turn += turns[e];
+    values.push_back(turns[e]);
+  }
+  sums.counts = Turn_histogram::counts(values);
+  return sums;
+}
+
+/// The least distance of the nodes of the coarse graph, in steps from face to face: 0, so that each face is a node, on
+/// meshes of up to a million faces, and as many as keep the number of nodes there on larger ones.
+inline std::size_t steps_of_coarse_graph(std::size_t faces) {
+  constexpr double most_nodes = 1e6;             // some 100 bytes each, for all tiles together
+  constexpr double faces_by_squared_step = 0.6;  // of a cluster: 5 or 6 triangles with 3 steps
+  const double faces_of_node = static_cast<double>(faces) / most_nodes;
+  if (faces_of_node <= 1) return 0;
+  return static_cast<std::size_t>(std::ceil(std::sqrt(faces_of_node / faces_by_squared_step)));
+}
+
+/// Clusters of faces as nodes, the lengths of ways between them in the feature-sensitive metric.
+inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std::size_t number, std::size_t steps,
+                             Tile_outline& outline) {
+  const std::vector<double> lengths =
+      Feature_sensitive_metric(shape.mesh, Farthest_point_sampling().normal_weight()).edge_lengths();
+  // A resistance is a length here, so that of the ways between two clusters the shortest one is wanted.
+  std::vector<double> inverse = own.own(lengths);
+  for (double& length : inverse) length = 1 / std::max(length, std::numeric_limits<double>::min());
+  const Face_clusters clusters(own.graph, inverse, std::vector<char>(inverse.size(), true), steps, {});
+  outline.faces = clusters.root;
+  for (const auto face : clusters.root) outline.centroids.push_back(shape.mesh.centroid(face));
+  std::vector<Cluster_way> ways;
+  for (Dual_graph::Index e = 0; e < own.graph.number_of_edges(); ++e) {
+    const auto [f, g] = own.graph.faces_of(e);
+    const auto [a, b] = std::minmax(clusters.of_face[f], clusters.of_face[g]);
+    if (a != b) ways.push_back({{a, b}, clusters.resistance[f] + lengths[own.edges[e]] + clusters.resistance[g]});
+  }
+  std::sort(ways.begin(), ways.end(), [](const Cluster_way& a, const Cluster_way& b) {
+    return std::tie(a.clusters, a.conductance) < std::tie(b.clusters, b.conductance);
+  });
+  for (const auto& [nodes, length] : ways) {
+    if (!outline.edges.empty() && outline.edges.back() == nodes) continue;
+    outline.edges.push_back(nodes);
+    outline.lengths.push_back(length);
+  }
+  for (const auto& shared : shape.shared_edges) {
+    const auto f = own_face(shape, shared);
+    const bool is_owner = number < shared.neighbour;
+    outline.sides.push_back(
+        {shared.side, clusters.of_face[f], clusters.resistance[f], is_owner ? lengths[shared.edge] : 0, is_owner});
+  }
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tile_shape shape_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
+                                                const std::vector<Tile_border>& neighbours,
+                                                const internal::Noise_of_mesh& noise, Tile_outline& outline,
+                                                const Tiled_segmentation& options, const Progress& progress) {
+  Tile_shape shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(outline.turned_sides);
+  shape.mesh = internal::shape_of_part(shape.mesh, options.smoothing, noise, progress.part(0, 0.8));
+  const internal::Own_graph own(shape);
+  outline.turns = internal::turn_sums(shape, own, number);
+  for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f)
+    outline.moment += shape.mesh.area(f) * shape.mesh.centroid(f);
+  internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan.faces), outline);
+  if (options.thickness.samples > 0)
+    outline.probes = internal::thickness_probes(shape.mesh, shape.own_faces, options.thickness.samples,
+                                                plan.tiles[number].area_before);
+  progress(1);
+  return shape;
+}
+
+}  // namespace RW_segmentation
+
+#endif

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_TILED_SEGMENTATION_H
+#define RW_SEGMENTATION_TILED_SEGMENTATION_H
+
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Learned_cost.h>
+#include <RW_segmentation/Merge_tree.h>
+#include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Tile.h>
+#include <RW_segmentation/Walk_reduction.h>
+#include <RW_segmentation/internal/merging/Region_merging.h>
+#include <RW_segmentation/local_thickness.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/// \file
+/// The automatic segmentation of a mesh that comes in tiles, by steps that each see one tile, and steps between them that
+/// see no mesh at all:
+///
+///     each tile   `survey_tile()`       how large it is, and its border
+///     all         `plan_tiles()`        which borders are the same
+///     each tile   `border_of_tile()`    what its neighbours must know of it, how noisy it is
+///     each tile   `shape_of_tile()`     with its neighbours' borders: normals; a coarse graph
+///     all         `seeds_of_tiles()`    seeds, what is ordinary on the whole
+///     each tile   `clusters_of_tile()`  a network of clusters of faces for the walk
+///     all         `walk_over_tiles()`   the fragment of each cluster
+///     each tile   `fragments_of_tile()` the fragment of each face; sums over regions and boundaries
+///     all         `merge_tiles()`       the merge tree
+///
+/// A step takes what earlier ones returned, in the order of the tiles, and depends on nothing else: not on where or in which
+/// order the tiles are done. Whatever lies between two steps is plain data.
+///
+/// It is the segmentation that `segmentation_via_random_walks()` makes of large meshes, on the mesh as a whole: the same
+/// seeds but for their place within a cluster, the same walk, the same merging. What differs: normals near a tile's border
+/// see the surface only as far as its neighbours' borders reach.
+
+namespace RW_segmentation {
+
+/// What a segmentation of tiles is made with; as in `Automatic_segmentation`.
+struct Tiled_segmentation {
+  Normal_smoothing smoothing;    ///< of the shape
+  std::size_t seeds = 40;        ///< of the whole mesh, and one more for each further connected component
+  Walk_reduction reduction;      ///< how large clusters are; walks over tiles run over clusters in any case
+  Thickness_sampling thickness;  ///< 0 samples: thickness does not count
+  /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
+  double tolerance = 0;
+
+  Tiled_segmentation() = default;
+  /// For so many segments: with twice as many seeds, 40 at least.
+  explicit Tiled_segmentation(std::size_t segments);
+};
+
+/// What `survey_tile()` finds.
+struct Tile_survey {
+  std::size_t faces = 0;
+  double area = 0;                                 ///< of all faces
+  Eigen::AlignedBox3d box;                         ///< of the vertices that have faces
+  std::vector<Dual_mesh::Index> border_vertices;   ///< on open sides, rising
+  std::vector<Eigen::Vector3d> border_points;      ///< of these
+  std::vector<std::uint64_t> border_ids;           ///< of these, if the tile has ids
+};
+
+/// What `plan_tiles()` knows of the whole.
+struct Tile_plan {
+  using Index = Dual_mesh::Index;
+
+  /// A vertex on the border of a tile that other tiles have, too.
+  struct Shared_vertex {
+    Index vertex;  ///< of the tile
+    Index id;      ///< the same in all tiles
+  };
+  /// What the plan knows of one tile.
+  struct Of_tile {
+    double area_before = 0;                      ///< of all tiles before this one, in the unit box
+    std::vector<Shared_vertex> shared_vertices;  ///< in the order of the vertices
+    std::vector<Index> neighbours;               ///< tiles that share a vertex with it, rising
+  };
+
+  internal::Unit_box box;      ///< of the whole
+  double total_area = 0;       ///< in the unit box
+  std::size_t faces = 0;       ///< of all tiles
+  std::vector<Of_tile> tiles;  ///< by tile
+};
+
+/// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see, and how noisy it is.
+struct Tile_border {
+  using Index = Dual_mesh::Index;
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  std::vector<Eigen::Vector3d> points;  ///< in the unit box
+  std::vector<Index> ids;               ///< by point: that of a shared vertex; `none`: no other tile has it
+  internal::Face_corners corners;       ///< by face of the border
+  std::vector<Index> faces;             ///< by face of the border: its number in the tile
+  double width = 0;                     ///< how far it reaches from the tile's border, in the unit box
+  std::vector<std::uint64_t> turns;           ///< counts of how far smoothing turns normals, see `noise_of_tiles()`
+  std::vector<std::uint64_t> smoother_turns;  ///< likewise, of the smoothed mesh, where there is heavy noise
+};
+
+namespace internal {
+
+/// A side between faces of two tiles, by the ids of its vertices, the lower one first.
+using Tile_side = std::array<Dual_mesh::Index, 2>;
+
+/// What one tile gives to the sum over a side between two tiles. The tile of the lower number gives what the side itself
+/// is; the other one leaves it 0.
+template <class Value>
+struct Side_value {
+  Tile_side side;
+  Dual_mesh::Index node;  ///< of the tile, on this side
+  double from_node;       ///< what leads there from the node
+  Value value;
+  bool is_owner;
+};
+
+/// Sums over the edges of a tile, from which means over the whole are made. Edges between two tiles count for the lower
+/// one.
+struct Turn_sums {
+  double edges = 0, length = 0, turn = 0;
+  std::vector<std::uint64_t> counts;  ///< of the turns, see `Turn_histogram`
+};
+
+}  // namespace internal
+
+/// What `shape_of_tile()` returns and later steps of the same tile go on with. The largest of all, about 250 bytes a face.
+struct Tile_shape {
+  using Index = Dual_mesh::Index;
+
+  /// A face of another tile.
+  struct Halo_face {
+    Index tile;   ///< that has it
+    Index place;  ///< in that tile's `Tile_border`
+  };
+  /// An edge between a face of the tile and one of the halo.
+  struct Shared_edge {
+    Index edge;
+    internal::Tile_side side;
+    Index neighbour;  ///< the other tile
+  };
+
+  Dual_mesh mesh;                 ///< the faces of the tile, then those of the halo
+  std::size_t own_faces = 0;      ///< faces of the tile
+  std::vector<Halo_face> halo;    ///< by face of the halo
+  std::vector<Shared_edge> shared_edges;
+};
+
+/// What `seeds_of_tiles()` needs of a tile: a coarse graph of its surface, and samples of it.
+struct Tile_outline {
+  using Index = Dual_mesh::Index;
+
+  internal::Turn_sums turns;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of the area
+  std::vector<Index> faces;                          ///< by node: the face that stands for it
+  std::vector<Eigen::Vector3d> centroids;            ///< of these
+  std::vector<std::array<Index, 2>> edges;           ///< between nodes
+  std::vector<double> lengths;                       ///< of these, in the feature-sensitive metric
+  std::vector<internal::Side_value<double>> sides;   ///< lengths between nodes of different tiles
+  std::vector<internal::Thickness_probe> probes;     ///< where the thickness is measured
+  std::size_t turned_sides = 0;  ///< sides between faces of which one must be turned inside out
+};
+
+/// Seeds, and what is ordinary on the whole.
+struct Tile_seeds {
+  using Index = Dual_mesh::Index;
+  /// A seed.
+  struct Seed {
+    Index tile, face;
+  };
+  /// Where the thickness is measured.
+  struct Probe {
+    Index tile;
+    internal::Thickness_probe probe;
+  };
+
+  std::vector<Seed> seeds;
+  std::vector<Probe> probes;
+  internal::Mean_concavity ordinary;
+  std::size_t turned_sides = 0;  ///< sides at which two tiles are not oriented alike; no tile goes on there
+};
+
+/// What `clusters_of_tile()` keeps for the tile itself: the cluster of each face.
+using Tile_clusters = std::vector<Dual_mesh::Index>;
+
+/// What `walk_over_tiles()` needs of a tile: its clusters of faces as a network of conductances.
+struct Tile_network {
+  using Index = Dual_mesh::Index;
+
+  std::size_t clusters = 0;                         ///< those of the tile's seeds are the first ones
+  std::vector<std::array<Index, 2>> edges;          ///< between clusters
+  std::vector<double> conductances;                 ///< of these
+  std::vector<internal::Side_value<double>> sides;  ///< conductances between clusters of different tiles
+  std::vector<Index> border;                        ///< by face of the tile's `Tile_border`: its cluster
+  std::vector<double> exits;                        ///< of the rays of all probes through this tile
+};
+
+/// The fragments of the clusters of all tiles.
+struct Tile_walk {
+  using Index = Dual_mesh::Index;
+
+  std::vector<std::vector<Index>> fragments;  ///< by tile and cluster
+  std::vector<std::vector<char>> bands;       ///< by tile and cluster: whether its faces are walked on once more
+  std::vector<double> thickness;              ///< by probe, in the unit box; 0 where it could not be measured
+  std::size_t number_of_fragments = 0;
+  std::size_t clusters = 0;      ///< of all tiles
+  std::size_t components = 0;    ///< connected parts of the whole mesh
+  std::size_t island_clusters = 0;  ///< that the walk left apart from their fragment, moved to a neighbour
+  bool is_solid = false;            ///< whether enough of the whole has a thickness
+};
+
+/// What `merge_tiles()` needs of a tile: sums over its regions and their boundaries.
+struct Tile_regions {
+  using Index = Dual_mesh::Index;
+  using Boundary_sums = internal::Boundaries_of_cost<Learned_cost, Dual_mesh>::Sums;
+
+  std::vector<Index> fragments;                                               ///< that have faces in the tile, rising
+  std::vector<Learned_cost::Region> regions;                                  ///< of these
+  std::vector<internal::Boundary_of_regions<Boundary_sums>> boundaries;       ///< between fragments, within the tile
+  std::vector<internal::Side_value<Boundary_sums>> sides;                     ///< those at its border
+};
+
+/// Looks at a tile by itself.
+/// \throws std::invalid_argument if a point is not finite, a corner is no vertex or ids are not one for each vertex
+/// Complexity: linear.
+Tile_survey survey_tile(const Tile& tile);
+
+/// Finds out where tiles meet.
+/// \throws std::invalid_argument if some tiles have ids and others have not, or the tolerance is negative
+/// Complexity: O(b log b) for b vertices on the borders of all tiles.
+Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmentation& options = {});
+
+/// Takes what neighbours must see of a tile, and measures its noise.
+/// Complexity: that of `smoothed_face_normals()`.
+/// \throws std::invalid_argument, Cancelled
+Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
+                           const Tiled_segmentation& options = {}, const Progress& progress = {});
+
+/// The medians over all tiles.
+/// \param borders of all tiles; only their counts are read
+internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_border>& borders);
+
+/// Joins a tile with its neighbours' borders, and smooths its normals.
+/// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
+/// \param[out] outline what the next step needs
+/// Complexity: that of `smoothed_face_normals()`.
+/// \throws std::invalid_argument, Cancelled
+Tile_shape shape_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
+                         const std::vector<Tile_border>& neighbours, const internal::Noise_of_mesh& noise,
+                         Tile_outline& outline, const Tiled_segmentation& options = {}, const Progress& progress = {});
+
+/// Places the seeds.
+/// \throws std::invalid_argument, Cancelled
+/// Complexity: that of `Farthest_point_sampling` on the coarse graph.
+Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>& outlines,
+                          const Tiled_segmentation& options = {}, const Progress& progress = {});
+
+/// Makes the clusters of a tile that walks run over.
+/// \param border of this tile
+/// \param[out] network what the next step needs
+/// Complexity: O(m log m) for m faces.
+Tile_clusters clusters_of_tile(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
+                               const Tile_border& border, const Tile_seeds& seeds, Tile_network& network,
+                               const Tiled_segmentation& options = {});
+
+/// Walks over the clusters of all tiles.
+/// \throws Cancelled
+Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const std::vector<Tile_network>& networks,
+                          const Tiled_segmentation& options = {}, const Progress& progress = {});
+
+/// Walks once more over the faces along the boundaries of fragments, and sums up what merging asks for.
+/// \param neighbours the networks of `plan.tiles[number].neighbours`, in their order
+/// \param[out] regions what the next step needs
+/// \returns the fragment of each face of the tile
+/// \throws Cancelled
+std::vector<Dual_mesh::Index> fragments_of_tile(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
+                                                const Tile_clusters& clusters, const Tile_seeds& seeds,
+                                                const std::vector<Tile_border>& neighbour_borders,
+                                                const std::vector<Tile_network>& neighbours, const Tile_walk& walk,
+                                                Tile_regions& regions, const Progress& progress = {});
+
+/// Merges the fragments of all tiles, by `Learned_cost`.
+/// \throws Cancelled
+Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& regions, const Progress& progress = {});
+
+/// All levels of a segmentation of tiles.
+struct Tiled_hierarchy {
+  Merge_tree tree;                                             ///< of the fragments
+  std::vector<std::vector<Dual_mesh::Index>> fragment_of_face;  ///< by tile and face
+  std::size_t components = 0;                                  ///< connected parts of the whole
+  std::size_t clusters = 0;                                    ///< that the walk ran over
+  std::size_t turned_sides = 0;                                ///< see `Tile_seeds`
+
+  /// The segment of each face of each tile at a level of the tree.
+  /// \throws std::invalid_argument if there are more components or fewer fragments than `number_of_segments`
+  std::vector<std::vector<std::size_t>> segments(std::size_t number_of_segments) const;
+};
+
+/// Segments tiles that fit into memory together: all steps, one after the other.
+///
+/// \code
+/// const Tiled_hierarchy hierarchy = hierarchy_of_tiles({Tile_of(north), Tile_of(south)});
+/// const auto segments = hierarchy.segments(Cost_threshold_stop(1)(hierarchy.tree));
+/// \endcode
+/// \throws std::invalid_argument, Cancelled
+Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options = {},
+                                   const Progress& progress = {});
+
+}  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/tiled_segmentation.h>
+#endif
+
+#endif

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+
+// Meshes that come in tiles.
+
+#include <RW_segmentation/internal/definitions/tiled_segmentation.h>
