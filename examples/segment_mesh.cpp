@@ -10,6 +10,7 @@
 #include "segment_mesh/report.h"
 #include "segment_mesh/run.h"
 #include "segment_mesh/run_all.h"
+#include "segment_mesh/tiles/run_tiles.h"
 
 #include <CLI/CLI.hpp>
 
@@ -36,6 +37,15 @@ void offer_other_levels(const Json& report) {
   for (const auto& level : report.value("levels", std::vector<std::size_t>()))
     if (level != report["segments"].size()) others += (others.empty() ? "" : " or ") + std::to_string(level);
   if (!others.empty()) std::printf("You may also try --segments %s.\n", others.c_str());
+}
+
+Exit_code run_tiles(const std::vector<Task>& tiles, const Options& options) {
+  Json report;
+  const Exit_code code = run_tiles(tiles, options, report);
+  if (options.is_quiet || report.is_null()) return code;
+  list(report["segments"]);
+  if (!options.segments) offer_other_levels(report);
+  return code;
 }
 
 Exit_code run_one(const Task& task, const Options& options) {
@@ -66,6 +76,7 @@ int main(int argc, char** argv) {
     survive_full_disks();
     if (options.bytes) limit_memory(*options.bytes);
     const std::vector<Task> tasks = tasks_of(options);
+    if (options.is_tiled) return run_tiles(tasks, options);
     return options.has_several_meshes() ? run_all(tasks, options) : run_one(tasks[0], options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? success : wrong_usage;

@@ -88,6 +88,12 @@ struct Options : Choices {
   std::optional<std::uint64_t> bytes;  ///< of memory
   bool is_quiet = false, is_man_page_wanted = false;
 
+  bool is_tiled = false;               ///< the meshes are tiles of one mesh
+  std::optional<std::size_t> workers;  ///< processes; without it as many as cores
+  std::optional<double> tolerance;     ///< between vertices of tiles that are the same
+  std::string tile_folder, tile_step;  ///< for what steps leave; the only step that is done
+  std::optional<std::size_t> tile;     ///< of that step
+
   bool has_cad_files() const {
     return std::any_of(files.outputs.begin(), files.outputs.end(),
                        [](const std::string& path) { return cad_format_of(path).has_value(); });
@@ -185,9 +191,51 @@ inline void check_cad_files(const Options& options) {
     throw CLI::ValidationError("--output", "the faces of CAD files lie on surfaces: give --engineering, too");
 }
 
+/// Refuses what tiles cannot have, and what only they can.
+inline void check_tiles(const Options& options) {
+  const auto refuse = [&](bool is_given, const char* option, const char* reason) {
+    if (is_given) throw CLI::ValidationError(option, reason);
+  };
+  if (!options.is_tiled) {
+    constexpr const char* reason = "it is for tiles of one mesh: give --tiled, too";
+    refuse(options.workers.has_value(), "--workers", reason);
+    refuse(options.tolerance.has_value(), "--tolerance", reason);
+    refuse(!options.tile_folder.empty(), "--tile-folder", reason);
+    refuse(!options.tile_step.empty(), "--tile-step", reason);
+    refuse(options.tile.has_value(), "--tile", reason);
+    return;
+  }
+  constexpr const char* reason = "tiles are segmented without it: leave it or --tiled out";
+  const Files& files = options.files;
+  refuse(options.has_seeds(), "--seed", reason);
+  refuse(options.is_engineering, "--engineering", reason);
+  refuse(options.is_coarse, "--coarse", reason);
+  refuse(options.is_paper, "--paper", reason);
+  refuse(options.seeding.has_value(), "--seeding", reason);
+  refuse(options.merge_cost.has_value(), "--merge-cost", reason);
+  refuse(options.difference.has_value(), "--difference", reason);
+  refuse(options.convex_weight.has_value(), "--convex-weight", reason);
+  refuse(options.measure.has_value(), "--measure", reason);
+  refuse(options.sigma.has_value(), "--sigma", reason);
+  refuse(options.cap.has_value(), "--cap", reason);
+  refuse(options.solver.has_value(), "--solver", reason);
+  refuse(!files.constraints.empty(), "--constraints", reason);
+  refuse(options.constraints_angle.has_value(), "--constraints-angle", reason);
+  refuse(options.is_smooth, "--smooth", reason);
+  refuse(options.is_refined, "--refine", reason);
+  refuse(!files.boundaries.empty(), "--boundaries", reason);
+  refuse(options.are_parts_closed, "--cap-parts", reason);
+  refuse(!files.hierarchy.empty(), "--hierarchy", reason);
+  refuse(!files.html.empty(), "--html", reason);
+  refuse(options.seconds.has_value(), "--time-limit", reason);
+  refuse(options.resumes, "--resume", "give --tile-folder in its place: what is in it is not done again");
+  refuse(has_placeholder(files.report), "--report", "there is one report of all tiles: leave the % out");
+}
+
 /// Refuses options that do not go together.
 inline void check_combinations(const Options& options) {
   const Files& files = options.files;
+  check_tiles(options);
   check_method(options);
   if (options.merges() && !files.probabilities.empty())
     throw CLI::ValidationError("--probabilities", "only segments of seeds have them: give --seed or --coarse alone");

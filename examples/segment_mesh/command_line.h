@@ -46,6 +46,8 @@ struct Range {
 
 constexpr Range<std::size_t> counts = {"a whole number from 1 to 4294967294",
                                        [](std::size_t n) { return n >= 1 && n <= 4294967294; }};
+constexpr Range<std::size_t> places = {"a whole number from 0 to 4294967293",
+                                       [](std::size_t n) { return n <= 4294967293; }};
 constexpr Range<double> weights = {"from 0 to 1", [](double x) { return x >= 0 && x <= 1; }};
 constexpr Range<double> finite_lengths = {"0 or larger, and finite",
                                           [](double x) { return x >= 0 && x <= std::numeric_limits<double>::max(); }};
@@ -93,6 +95,31 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->group("Several meshes");
   app.add_flag("--resume", options.resumes, "Pass over meshes whose outputs are there already")
       ->group("Several meshes");
+
+  app.add_flag("--tiled", options.is_tiled,
+               "The meshes are tiles of one mesh, which meet where vertices on their borders are in the same place.\n"
+               "Segments go on from tile to tile, and their labels mean the same in all of them.")
+      ->group("Tiles of one mesh");
+  add_number(app, "--workers", options.workers, counts, "How many tiles are worked on at the same time (all cores)")
+      ->option_text("N")
+      ->group("Tiles of one mesh");
+  add_number(app, "--tolerance", options.tolerance, finite_lengths,
+             "How far apart the same vertex may be in two tiles, in the unit of the coordinates (0)")
+      ->option_text("LENGTH")
+      ->group("Tiles of one mesh");
+  app.add_option("--tile-folder", options.tile_folder,
+                 "Where steps leave what later ones need, some 150 bytes a face. It stays: run again, only what is not\n"
+                 "there is done, and another --segments takes the last steps alone. (A temporary folder)")
+      ->option_text("FOLDER")
+      ->group("Tiles of one mesh");
+  app.add_option("--tile-step", options.tile_step,
+                 "Do one step only, for schedulers of many machines: survey, border, shape, clusters, fragments and\n"
+                 "labels of one tile, plan, noise, seeds, walk, merge and report of all")
+      ->option_text("STEP")
+      ->group("Tiles of one mesh");
+  add_number(app, "--tile", options.tile, places, "The tile of that step, numbered from 0 in the order of the meshes")
+      ->option_text("N")
+      ->group("Tiles of one mesh");
 
   auto* seed =
       app.add_option("--seed", options.seeds,

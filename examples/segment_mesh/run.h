@@ -14,8 +14,8 @@
 #include "Stages.h"
 #include "Task.h"
 #include "close_parts.h"
-#include "limits.h"
-#include "read_by_assimp.h"
+#include "failure.h"
+#include "read_input.h"
 #include "report.h"
 #include "seeds.h"
 #include "segments.h"
@@ -25,11 +25,6 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 
-#include <CLI/CLI.hpp>
-
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -37,57 +32,6 @@
 #include <vector>
 
 namespace segment_mesh {
-
-/// Messages on standard error.
-inline void say(const std::string& message) { std::fprintf(stderr, "segment_mesh: %s\n", message.c_str()); }
-
-/// How the work on a mesh ended.
-struct Outcome {
-  Exit_code code = success;
-  std::string message;
-};
-
-/// An error of the library, which knows nothing of options.
-inline std::string in_words_of_options(std::string message) {
-  for (const auto& [words, option] :
-       {std::pair<std::string, const char*>("the number of segments is ", "--segments is "),
-        {"the number of seeds is ", "--seeds is "},
-        {"seeds is ", "--seeds is "}})
-    if (message.compare(0, words.size(), words) == 0) return option + message.substr(words.size());
-  return message;
-}
-
-/// The outcome that the exception in flight stands for.
-inline Outcome failure(const std::string& mesh, const Options& options) {
-  try {
-    throw;
-  } catch (const CLI::ParseError& error) {
-    return {wrong_usage, error.what()};
-  } catch (const mesh_files::Unreadable_file& error) {
-    return {unreadable_input, error.what()};
-  } catch (const Argument_out_of_range& error) {
-    return {wrong_argument, error.what()};
-  } catch (const std::invalid_argument& error) {
-    return {wrong_argument, mesh + ": " + in_words_of_options(error.what())};
-  } catch (const mesh_files::Unwritable_file& error) {
-    return {unwritable_output, error.what()};
-  } catch (const Unsound_shape& error) {
-    return {unsound_shape, mesh + ": the CAD file would not be right, and nothing was written: " + error.what() +
-                               " (--keep-invalid writes it all the same)"};
-  } catch (const RW_segmentation::Cancelled&) {
-    return {cancelled, std::string(cancelled_message)};
-  } catch (const Out_of_time&) {
-    return {reached_limit, mesh + ": the time limit is over, nothing was written"};
-  } catch (const std::bad_alloc&) {
-    if (options.bytes) return {reached_limit, mesh + ": out of the memory that --max-memory allows"};
-    return {failed_computation, mesh + ": out of memory"};
-  } catch (const std::exception& error) {
-    // TBB's words where the stack of a thread does not fit any more.
-    if (options.bytes && std::string(error.what()).find("pthread_create") != std::string::npos)
-      return {reached_limit, mesh + ": out of the memory that --max-memory allows"};
-    return {failed_computation, mesh + ": " + error.what()};
-  }
-}
 
 /// What is odd but not wrong.
 inline std::vector<std::string> remarks_on(const Segmentation& result, bool has_seeds) {
@@ -161,22 +105,6 @@ inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& 
   mark_constraints(soup, constraints, mesh, walls);
   if (options.constraints_angle) mark_sharp_edges(mesh, *options.constraints_angle, walls);
   return walls;
-}
-
-/// Reads a mesh, by Assimp if it is of a format that nothing here reads.
-/// \throws mesh_files::Unreadable_file
-inline mesh_files::Polygon_soup read_input(const std::string& path, const std::optional<mesh_files::Format>& format) {
-  const std::string content = mesh_files::read_content(path);
-  const std::string extension = format ? "" : extension_for_assimp(path, content);
-  return extension.empty() ? mesh_files::mesh_of_content(path, content, format)
-                           : read_by_assimp(path, content, extension);
-}
-
-/// \throws mesh_files::Unreadable_file
-inline void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygon_soup& soup) {
-  if (soup.number_of_faces() > 0) return;
-  throw mesh_files::Unreadable_file(path + ": the file has " + counted(soup.points.size(), "vertex", "vertices") +
-                                    " and no faces, so that there is no surface to segment");
 }
 
 /// Segments a mesh as the options tell and writes its files.

@@ -82,12 +82,10 @@ constexpr double distinct_colors = 0.1;
 /// apart differ, too, as long as there are distinct colours. A segment with so many neighbours that none is far enough
 /// gets the one that is farthest.
 ///
-/// \param segment the segments of the faces, numbered from 0 without gaps
-inline std::vector<mesh_files::Color> segment_colors(const Mesh& mesh, const std::vector<std::size_t>& segment,
-                                                     std::size_t number_of_segments) {
+/// \param neighbours of each segment
+inline std::vector<mesh_files::Color> segment_colors(const std::vector<std::vector<std::size_t>>& neighbours) {
   const Palette palette;
-  std::vector<std::vector<std::size_t>> neighbours(number_of_segments);
-  for (const auto& [a, b] : neighbouring_segments(mesh, segment)) neighbours[a].push_back(b);
+  const std::size_t number_of_segments = neighbours.size();
   std::vector<std::size_t> order(number_of_segments);
   std::iota(order.begin(), order.end(), std::size_t(0));
   // Those with the most neighbours choose first (Welsh and Powell 1967).
@@ -115,6 +113,15 @@ inline std::vector<mesh_files::Color> segment_colors(const Mesh& mesh, const std
   colors.reserve(number_of_segments);
   for (const std::size_t c : choice) colors.push_back(palette[c]);
   return colors;
+}
+
+/// As above.
+/// \param segment the segments of the faces, numbered from 0 without gaps
+inline std::vector<mesh_files::Color> segment_colors(const Mesh& mesh, const std::vector<std::size_t>& segment,
+                                                     std::size_t number_of_segments) {
+  std::vector<std::vector<std::size_t>> neighbours(number_of_segments);
+  for (const auto& [a, b] : neighbouring_segments(mesh, segment)) neighbours[a].push_back(b);
+  return segment_colors(neighbours);
 }
 
 }  // namespace segment_mesh

@@ -28,7 +28,8 @@
 ///
 ///     each tile   `survey_tile()`       how large it is, and its border
 ///     all         `plan_tiles()`        which borders are the same
-///     each tile   `border_of_tile()`    what its neighbours must know of it, how noisy it is
+///     each tile   `border_of_tile()`    what its neighbours must know of it, and its noise
+///     all         `noise_of_tiles()`    how noisy the whole is
 ///     each tile   `shape_of_tile()`     with its neighbours' borders: normals; a coarse graph
 ///     all         `seeds_of_tiles()`    seeds, what is ordinary on the whole
 ///     each tile   `clusters_of_tile()`  a network of clusters of faces for the walk
@@ -91,7 +92,7 @@ struct Tile_plan {
   std::vector<Of_tile> tiles;  ///< by tile
 };
 
-/// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see, and how noisy it is.
+/// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see.
 struct Tile_border {
   using Index = Dual_mesh::Index;
   static constexpr Index none = std::numeric_limits<Index>::max();
@@ -101,7 +102,11 @@ struct Tile_border {
   internal::Face_corners corners;       ///< by face of the border
   std::vector<Index> faces;             ///< by face of the border: its number in the tile
   double width = 0;                     ///< how far it reaches from the tile's border, in the unit box
-  std::vector<std::uint64_t> turns;           ///< counts of how far smoothing turns normals, see `noise_of_tiles()`
+};
+
+/// How far smoothing turns the normals of a tile: counts, from which medians over all tiles are taken.
+struct Tile_noise {
+  std::vector<std::uint64_t> turns;           ///< see `internal::Turn_histogram`
   std::vector<std::uint64_t> smoother_turns;  ///< likewise, of the smoothed mesh, where there is heavy noise
 };
 
@@ -237,14 +242,14 @@ Tile_survey survey_tile(const Tile& tile);
 Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmentation& options = {});
 
 /// Takes what neighbours must see of a tile, and measures its noise.
+/// \param[out] noise what `noise_of_tiles()` needs
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
-Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
+Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan, Tile_noise& noise,
                            const Tiled_segmentation& options = {}, const Progress& progress = {});
 
-/// The medians over all tiles.
-/// \param borders of all tiles; only their counts are read
-internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_border>& borders);
+/// How noisy the whole is.
+internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles);
 
 /// Joins a tile with its neighbours' borders, and smooths its normals.
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
@@ -284,6 +289,19 @@ std::vector<Dual_mesh::Index> fragments_of_tile(const Tile_shape& shape, std::si
                                                 const std::vector<Tile_border>& neighbour_borders,
                                                 const std::vector<Tile_network>& neighbours, const Tile_walk& walk,
                                                 Tile_regions& regions, const Progress& progress = {});
+
+namespace internal {
+
+/// A part of the whole, measured as such.
+/// \param points in the unit box
+/// \param[out] turned_sides how many sides lie between faces of which one must be turned inside out
+Dual_mesh part_of(const Tile_plan& plan, Face_corners corners, std::vector<Eigen::Vector3d> points,
+                  std::size_t* turned_sides = nullptr);
+
+/// The boundaries between all fragments, sorted by these.
+std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tiles(const std::vector<Tile_regions>& tiles);
+
+}  // namespace internal
 
 /// Merges the fragments of all tiles, by `Learned_cost`.
 /// \throws Cancelled

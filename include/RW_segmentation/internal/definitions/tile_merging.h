@@ -113,23 +113,34 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(
   return {labels.fragment.begin(), end_of_own};
 }
 
-RW_SEGMENTATION_INLINE Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& tiles,
-                                              const Progress& progress) {
+namespace internal {
+
+RW_SEGMENTATION_INLINE std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tiles(
+    const std::vector<Tile_regions>& tiles) {
   using Index = Dual_mesh::Index;
-  const Learned_cost cost(walk.is_solid);
-  std::vector<Learned_cost::Region> regions(walk.number_of_fragments);
   std::map<std::array<Index, 2>, Tile_regions::Boundary_sums> sums;
-  for (const Tile_regions& tile : tiles) {
-    for (std::size_t i = 0; i < tile.regions.size(); ++i) cost.join(regions[tile.fragments[i]], tile.regions[i]);
+  for (const Tile_regions& tile : tiles)
     for (const auto& [fragments, common] : tile.boundaries) sums[fragments] += common;
-  }
-  const internal::Joined_nodes nodes(tiles, [](const Tile_regions&) { return std::size_t(0); });
+  // Fragments have the same numbers in all tiles.
+  const Joined_nodes nodes(tiles, [](const Tile_regions&) { return std::size_t(0); });
   nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
     if (a != b) sums[{std::min(a, b), std::max(a, b)}] += owner.value;
   });
-  std::vector<internal::Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries;
+  std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries;
   for (const auto& [fragments, common] : sums) boundaries.push_back({fragments, common});
-  return internal::Region_merging<Learned_cost>(std::move(regions), std::move(boundaries), cost).run(progress);
+  return boundaries;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& tiles,
+                                              const Progress& progress) {
+  const Learned_cost cost(walk.is_solid);
+  std::vector<Learned_cost::Region> regions(walk.number_of_fragments);
+  for (const Tile_regions& tile : tiles)
+    for (std::size_t i = 0; i < tile.regions.size(); ++i) cost.join(regions[tile.fragments[i]], tile.regions[i]);
+  return internal::Region_merging<Learned_cost>(std::move(regions), internal::boundaries_of_tiles(tiles), cost)
+      .run(progress);
 }
 
 RW_SEGMENTATION_INLINE std::vector<std::vector<std::size_t>> Tiled_hierarchy::segments(
@@ -160,8 +171,10 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile
   };
 
   std::vector<Tile_border> borders;
-  for (std::size_t t = 0; t < count; ++t) borders.push_back(border_of_tile(tiles[t], t, plan, options, part(0, 0.3, t)));
-  const internal::Noise_of_mesh noise = noise_of_tiles(borders);
+  std::vector<Tile_noise> noises(count);
+  for (std::size_t t = 0; t < count; ++t)
+    borders.push_back(border_of_tile(tiles[t], t, plan, noises[t], options, part(0, 0.3, t)));
+  const internal::Noise_of_mesh noise = noise_of_tiles(noises);
   std::vector<Tile_shape> shapes;
   std::vector<Tile_outline> outlines(count);
   for (std::size_t t = 0; t < count; ++t)

@@ -36,12 +36,10 @@ inline std::vector<Eigen::Vector3d> points_in_box(const Tile& tile, const Unit_b
   return points;
 }
 
-/// A part of the whole, measured as such.
-/// \param[out] turned_sides see `Joined_faces`
-inline Dual_mesh part_of(const Tile_plan& plan, Face_corners corners, std::vector<Eigen::Vector3d> points,
-                         std::size_t& turned_sides) {
+RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners corners,
+                                         std::vector<Eigen::Vector3d> points, std::size_t* turned_sides) {
   Joined_faces joined(corners, points.size());
-  turned_sides = joined.turned_sides;
+  if (turned_sides) *turned_sides = joined.turned_sides;
   const std::size_t faces = corners.number_of_faces();
   return Dual_mesh({Dual_graph(faces, std::move(joined.sides)), std::move(corners), std::move(joined.ends),
                     std::move(points), {}},
@@ -117,31 +115,28 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
 }  // namespace internal
 
 RW_SEGMENTATION_INLINE Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
-                                                  const Tiled_segmentation& options, const Progress& progress) {
-  std::size_t turned_sides = 0;  // are counted when the tile has its neighbours round it
-  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), turned_sides);
+                                                  Tile_noise& noise, const Tiled_segmentation& options,
+                                                  const Progress& progress) {
+  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
   Tile_border border;
   double widening = 1;
   if (mesh.number_of_faces() > 0) {
     const internal::Normal_turns turns = internal::normal_turns(mesh, options.smoothing, progress);
-    border.turns = internal::Turn_histogram::counts(turns.turn);
-    border.smoother_turns = internal::Turn_histogram::counts(turns.smoother_turn);
-    widening = internal::widening_by_noise(
-        {internal::Turn_histogram::median(border.turns), internal::Turn_histogram::median(border.smoother_turns)},
-        options.smoothing);
+    noise = {internal::Turn_histogram::counts(turns.turn), internal::Turn_histogram::counts(turns.smoother_turn)};
+    widening = internal::widening_by_noise(noise_of_tiles({noise}), options.smoothing);
   }
   border.width = internal::width_of_border(plan, options.smoothing, std::max(widening, 1.));
   internal::take_border(mesh, plan.tiles[number].shared_vertices, border);
   return border;
 }
 
-RW_SEGMENTATION_INLINE internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_border>& borders) {
-  std::vector<std::uint64_t> turns, smoother_turns;
-  for (const Tile_border& border : borders) {
-    internal::Turn_histogram::add(border.turns, turns);
-    internal::Turn_histogram::add(border.smoother_turns, smoother_turns);
+RW_SEGMENTATION_INLINE internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles) {
+  Tile_noise whole;
+  for (const Tile_noise& noise : tiles) {
+    internal::Turn_histogram::add(noise.turns, whole.turns);
+    internal::Turn_histogram::add(noise.smoother_turns, whole.smoother_turns);
   }
-  return {internal::Turn_histogram::median(turns), internal::Turn_histogram::median(smoother_turns)};
+  return {internal::Turn_histogram::median(whole.turns), internal::Turn_histogram::median(whole.smoother_turns)};
 }
 
 namespace internal {
@@ -164,7 +159,7 @@ class Tile_surroundings {
   Tile_shape shape(std::size_t& turned_sides) {
     Tile_shape shape;
     shape.own_faces = corners_.number_of_faces() - halo_.size();
-    shape.mesh = part_of(plan_, std::move(corners_), std::move(points_), turned_sides);
+    shape.mesh = part_of(plan_, std::move(corners_), std::move(points_), &turned_sides);
     shape.halo = std::move(halo_);
     std::unordered_map<Index, Index> id_of_vertex;
     for (const auto& [vertex, id] : plan_.tiles[number_].shared_vertices) id_of_vertex.emplace(vertex, id);

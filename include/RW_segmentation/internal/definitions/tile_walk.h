@@ -213,6 +213,9 @@ RW_SEGMENTATION_INLINE Tile_walk walk_over_tiles(const Tile_plan& plan, const Ti
   std::vector<double> conductances;
   const Dual_graph graph = internal::network_of_tiles(networks, nodes, conductances);
   walk.clusters = graph.number_of_faces();
+  walk.fragments.resize(networks.size());
+  walk.bands.resize(networks.size());
+  if (walk.clusters == 0) return walk;
   const internal::Components components(graph, [&](Index edge) { return conductances[edge] > 0; });
   walk.components = components.count;
   std::vector<Index> seeds_before(networks.size(), 0), seed_nodes;  // a tile's seeds are its first clusters
@@ -227,8 +230,6 @@ RW_SEGMENTATION_INLINE Tile_walk walk_over_tiles(const Tile_plan& plan, const Ti
   for (const Index node : internal::band_along_boundaries(graph, fragments.of_face, options.reduction.band))
     is_in_band[node] = true;
   for (std::size_t t = 0; t < networks.size(); ++t) {
-    walk.fragments.emplace_back();
-    walk.bands.emplace_back();
     for (Index cluster = 0; cluster < networks[t].clusters; ++cluster) {
       const std::size_t fragment = fragments.of_face[nodes(t, cluster)];
       walk.number_of_fragments = std::max(walk.number_of_fragments, fragment + 1);

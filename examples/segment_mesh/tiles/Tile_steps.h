@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef SEGMENT_MESH_TILES_TILE_STEPS_H
+#define SEGMENT_MESH_TILES_TILE_STEPS_H
+
+#include "../Options.h"
+#include "../Oriented_mesh.h"
+#include "../Output_files.h"
+#include "../Task.h"
+#include "../read_input.h"
+#include "../report.h"
+#include "../segment_colors.h"
+#include "../segments.h"
+#include "step_contents.h"
+
+#include <RW_segmentation/tiled_segmentation.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace segment_mesh {
+
+namespace RW = RW_segmentation;
+
+/// The steps of a segmentation of tiles. What each of them leaves for later ones is in files of a folder, so that it may be
+/// done by any process, on any machine that sees the folder, as soon as the steps before it are done.
+class Tile_steps {
+ public:
+  /// A step, in the order in which they are done.
+  struct Step {
+    const char* name;
+    bool is_of_each_tile;
+    void (Tile_steps::*run)(std::size_t tile) const;
+    std::vector<const char*> files;  ///< that it leaves, the last one at its end
+  };
+
+  /// \param folder for what the steps leave
+  Tile_steps(const std::vector<Task>& tiles, const Options& options, std::string folder)
+      : tasks_(tiles), options_(options), folder_(std::move(folder)) {
+    if (options.smoothing) method_.smoothing.radius = *options.smoothing;
+    if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
+    if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
+    method_.tolerance = options.tolerance.value_or(0);
+  }
+
+  static const std::vector<Step>& all() {
+    static const std::vector<Step> steps = {
+        {"survey", true, &Tile_steps::survey, {"tile", "survey"}},
+        {"plan", false, &Tile_steps::plan, {"plan"}},
+        {"border", true, &Tile_steps::border, {"border", "noise"}},
+        {"noise", false, &Tile_steps::noise, {"noise_of_all"}},
+        {"shape", true, &Tile_steps::shape, {"shape", "outline"}},
+        {"seeds", false, &Tile_steps::seeds, {"seeds"}},
+        {"clusters", true, &Tile_steps::clusters, {"clusters", "network"}},
+        {"walk", false, &Tile_steps::walk, {"walk"}},
+        {"fragments", true, &Tile_steps::fragments, {"fragments", "regions"}},
+        {"merge", false, &Tile_steps::merge, {"segments"}},
+        {"labels", true, &Tile_steps::labels, {"labels"}},
+        {"report", false, &Tile_steps::report, {"report"}},
+    };
+    return steps;
+  }
+
+  /// \throws CLI::ValidationError if there is no such step
+  static const Step& named(const std::string& name) {
+    for (const Step& step : all())
+      if (name == step.name) return step;
+    throw CLI::ValidationError("--tile-step", name + " is no step of a segmentation of tiles");
+  }
+
+  std::size_t number_of_tiles() const { return tasks_.size(); }
+
+  /// Whether a step has left all of its files.
+  bool is_done(const Step& step, std::size_t tile) const {
+    return std::all_of(step.files.begin(), step.files.end(),
+                       [&](const char* file) { return std::filesystem::exists(path(step, file, tile)); });
+  }
+
+  /// Removes what a step has left.
+  void forget(const Step& step, std::size_t tile) const {
+    for (const char* file : step.files) std::filesystem::remove(path(step, file, tile));
+  }
+
+  /// Whether a tile has changed since it was surveyed.
+  bool has_changed(std::size_t tile) const {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const auto of_survey = fs::last_write_time(path_of_tile("survey", tile), error);
+    if (error) return false;
+    const auto of_tile = fs::last_write_time(tasks_[tile].mesh, error);
+    return error || of_tile > of_survey;
+  }
+
+  /// What makes all steps what they are, in words: files that other tiles or options have left are of no use.
+  std::string parameters() const {
+    Json parameters = {{"tiles", Json::array()},
+                       {"smoothing", method_.smoothing.radius},
+                       {"seeds", method_.seeds},
+                       {"tolerance", method_.tolerance},
+                       {"stitch", options_.repairs.stitch},
+                       {"orient", options_.repairs.orient},
+                       {"version", version()}};
+    for (const Task& task : tasks_) parameters["tiles"].push_back(task.mesh);
+    return parameters.dump();
+  }
+
+  /// The tiles that could not be read, each with the reason.
+  std::vector<std::string> failures() const {
+    std::vector<std::string> failures;
+    for (std::size_t t = 0; t < tasks_.size(); ++t) {
+      const std::string failure = failure_of(t);
+      if (!failure.empty()) failures.push_back(failure);
+    }
+    return failures;
+  }
+
+  /// What the last step tells.
+  Json read_report() const { return Json::parse(mesh_files::read_content(folder_ + "/report")); }
+
+ private:
+  using Index = RW::Dual_mesh::Index;
+  using Colors = std::vector<std::array<std::uint8_t, 3>>;
+
+  std::string path(const Step& step, const char* file, std::size_t tile) const {
+    return step.is_of_each_tile ? path_of_tile(file, tile) : folder_ + "/" + file;
+  }
+  std::string path_of_tile(const char* file, std::size_t tile) const {
+    return folder_ + "/" + file + "_" + std::to_string(tile);
+  }
+
+  template <class Value>
+  Value read(const char* file) const {
+    Value value;
+    read_step(folder_ + "/" + file, file, value);
+    return value;
+  }
+  template <class Value>
+  Value read(const char* file, std::size_t tile) const {
+    Value value;
+    read_step(path_of_tile(file, tile), file, value);
+    return value;
+  }
+  template <class Value>
+  std::vector<Value> read_all(const char* file) const {
+    std::vector<Value> values;
+    for (std::size_t t = 0; t < tasks_.size(); ++t) values.push_back(read<Value>(file, t));
+    return values;
+  }
+  template <class Value>
+  std::vector<Value> read_neighbours(const char* file, const RW::Tile_plan& plan, std::size_t tile) const {
+    std::vector<Value> values;
+    for (const auto neighbour : plan.tiles[tile].neighbours) values.push_back(read<Value>(file, neighbour));
+    return values;
+  }
+
+  std::string failure_of(std::size_t tile) const {
+    RW::Tile_survey survey;
+    std::string failure;
+    read_step(path_of_tile("survey", tile), "survey", survey, failure);
+    return failure;
+  }
+
+  // ---- The steps ----
+
+  void survey(std::size_t tile) const {
+    RW::Tile arrays;
+    std::string failure;
+    try {
+      const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
+      refuse_mesh_without_faces(tasks_[tile].mesh, soup);
+      arrays = RW::Tile_of<Mesh>(oriented_mesh(soup, options_.repairs).mesh);
+    } catch (const mesh_files::Unreadable_file& error) {
+      failure = error.what();  // leaves the other tiles their segments
+    }
+    write_step(path_of_tile("tile", tile), "tile", arrays);
+    write_step(path_of_tile("survey", tile), "survey", RW::survey_tile(arrays), failure);
+  }
+
+  void plan(std::size_t) const {
+    write_step(folder_ + "/plan", "plan", RW::plan_tiles(read_all<RW::Tile_survey>("survey"), method_));
+  }
+
+  void border(std::size_t tile) const {
+    RW::Tile_noise noise;
+    const auto border =
+        RW::border_of_tile(read<RW::Tile>("tile", tile), tile, read<RW::Tile_plan>("plan"), noise, method_);
+    write_step(path_of_tile("border", tile), "border", border);
+    write_step(path_of_tile("noise", tile), "noise", noise);
+  }
+
+  void noise(std::size_t) const {
+    const auto noise = RW::noise_of_tiles(read_all<RW::Tile_noise>("noise"));
+    write_step(folder_ + "/noise_of_all", "noise_of_all", noise.turn, noise.smoother_turn);
+  }
+
+  void shape(std::size_t tile) const {
+    const auto plan = read<RW::Tile_plan>("plan");
+    RW::internal::Noise_of_mesh noise;
+    read_step(folder_ + "/noise_of_all", "noise_of_all", noise.turn, noise.smoother_turn);
+    RW::Tile_outline outline;
+    const RW::Tile_shape shape =
+        RW::shape_of_tile(read<RW::Tile>("tile", tile), tile, plan,
+                          read_neighbours<RW::Tile_border>("border", plan, tile), noise, outline, method_);
+    RW::internal::Face_corners corners;
+    for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
+      for (const auto v : shape.mesh.corners(f)) corners.add(v);
+      corners.end_face();
+    }
+    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), shape.mesh.shape_normals(),
+               shape.own_faces, shape.halo, shape.shared_edges);
+    write_step(path_of_tile("outline", tile), "outline", outline);
+  }
+
+  RW::Tile_shape read_shape(const RW::Tile_plan& plan, std::size_t tile) const {
+    RW::Tile_shape shape;
+    RW::internal::Face_corners corners;
+    std::vector<Eigen::Vector3d> points, normals;
+    read_step(path_of_tile("shape", tile), "shape", corners, points, normals, shape.own_faces, shape.halo,
+              shape.shared_edges);
+    shape.mesh =
+        RW::internal::part_of(plan, std::move(corners), std::move(points)).with_shape_normals(std::move(normals));
+    return shape;
+  }
+
+  void seeds(std::size_t) const {
+    write_step(folder_ + "/seeds", "seeds",
+               RW::seeds_of_tiles(read<RW::Tile_plan>("plan"), read_all<RW::Tile_outline>("outline"), method_));
+  }
+
+  void clusters(std::size_t tile) const {
+    const auto plan = read<RW::Tile_plan>("plan");
+    RW::Tile_network network;
+    const auto clusters =
+        RW::clusters_of_tile(read_shape(plan, tile), tile, plan, read<RW::Tile_border>("border", tile),
+                             read<RW::Tile_seeds>("seeds"), network, method_);
+    write_step(path_of_tile("clusters", tile), "clusters", clusters);
+    write_step(path_of_tile("network", tile), "network", network);
+  }
+
+  void walk(std::size_t) const {
+    write_step(folder_ + "/walk", "walk",
+               RW::walk_over_tiles(read<RW::Tile_plan>("plan"), read<RW::Tile_seeds>("seeds"),
+                                   read_all<RW::Tile_network>("network"), method_));
+  }
+
+  void fragments(std::size_t tile) const {
+    const auto plan = read<RW::Tile_plan>("plan");
+    RW::Tile_regions regions;
+    const auto fragments = RW::fragments_of_tile(
+        read_shape(plan, tile), tile, plan, read<RW::Tile_clusters>("clusters", tile), read<RW::Tile_seeds>("seeds"),
+        read_neighbours<RW::Tile_border>("border", plan, tile), read_neighbours<RW::Tile_network>("network", plan, tile),
+        read<RW::Tile_walk>("walk"), regions);
+    write_step(path_of_tile("fragments", tile), "fragments", fragments);
+    write_step(path_of_tile("regions", tile), "regions", regions);
+  }
+
+  /// The segments of fragments, with the share of the area and the colour of each.
+  void merge(std::size_t) const {
+    const auto regions = read_all<RW::Tile_regions>("regions");
+    const RW::Merge_tree tree = RW::merge_tiles(read<RW::Tile_walk>("walk"), regions);
+    const std::size_t suggested = RW::Cost_threshold_stop(1)(tree);
+    const std::vector<std::size_t> segment = tree.segment_of_fragments(options_.segments.value_or(suggested));
+    const std::size_t segments = segment.empty() ? 0 : *std::max_element(segment.begin(), segment.end()) + 1;
+
+    std::vector<double> area(segments, 0.);
+    std::vector<std::set<std::size_t>> neighbours(segments);
+    for (const RW::Tile_regions& tile : regions) {
+      for (std::size_t i = 0; i < tile.fragments.size(); ++i)
+        area[segment[tile.fragments[i]]] += tile.regions[i].size.area;
+    }
+    for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) {
+      const auto [a, b] = boundary.regions;
+      if (segment[a] == segment[b]) continue;
+      neighbours[segment[a]].insert(segment[b]);
+      neighbours[segment[b]].insert(segment[a]);
+    }
+    std::vector<std::vector<std::size_t>> lists;
+    for (const auto& of_segment : neighbours) lists.emplace_back(of_segment.begin(), of_segment.end());
+    std::vector<double> costs;
+    std::vector<std::array<std::uint64_t, 2>> merges;
+    for (const auto& merge : tree.merges()) {
+      merges.push_back({merge.first, merge.second});
+      costs.push_back(merge.cost);
+    }
+    write_step(folder_ + "/segments", "segments", std::vector<std::uint64_t>(segment.begin(), segment.end()), area,
+               Colors(segment_colors(lists)), merges, costs, std::uint64_t(suggested));
+  }
+
+  struct Segments {
+    std::vector<std::uint64_t> of_fragment;
+    std::vector<double> area;  ///< as a part of the whole
+    Colors colors;
+    std::vector<std::array<std::uint64_t, 2>> merges;
+    std::vector<double> costs;  ///< of these
+    std::uint64_t suggested = 0;
+
+    RW::Merge_tree tree() const {
+      std::vector<RW::Merge_tree::Merge> list;
+      for (std::size_t i = 0; i < merges.size(); ++i) list.push_back({merges[i][0], merges[i][1], costs[i]});
+      return {of_fragment.size(), std::move(list)};
+    }
+  };
+  Segments read_segments() const {
+    Segments s;
+    read_step(folder_ + "/segments", "segments", s.of_fragment, s.area, s.colors, s.merges, s.costs, s.suggested);
+    return s;
+  }
+
+  void labels(std::size_t tile) const {
+    const Segments all = read_segments();
+    std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
+    if (failure_of(tile).empty()) {
+      Output_files files(tasks_[tile].files, options_);
+      const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
+      const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
+      const RW::Tile_of<Mesh> order(input.mesh);
+      const auto fragments = read<std::vector<Index>>("fragments", tile);
+      Segmentation result;
+      result.label.resize(input.mesh.number_of_faces());
+      for (std::size_t f = 0; f < fragments.size(); ++f)
+        result.label[order.face_descriptors.at(f)] = all.of_fragment.at(fragments[f]);
+      const auto faces = faces_in_file_order(soup, input);
+      for (const std::size_t label : in_file_order(faces, result.label)) ++faces_of_segment[label];
+      std::vector<Segment> segments;
+      for (std::size_t s = 0; s < all.area.size(); ++s)
+        if (faces_of_segment[s] > 0) segments.push_back({s, faces_of_segment[s], all.area[s], all.colors[s]});
+      files.write(soup, nullptr, faces, result, segments);
+      files.write_left_out(faces_left_out(input));
+      files.commit({});
+    }
+    write_step(path_of_tile("labels", tile), "labels", faces_of_segment);
+  }
+
+  void report(std::size_t) const {
+    const Segments all = read_segments();
+    std::vector<std::uint64_t> faces(all.area.size(), 0);
+    for (std::size_t t = 0; t < tasks_.size(); ++t) {
+      const auto of_tile = read<std::vector<std::uint64_t>>("labels", t);
+      for (std::size_t s = 0; s < faces.size(); ++s) faces[s] += of_tile[s];
+    }
+    const auto plan = read<RW::Tile_plan>("plan");
+    const auto walk = read<RW::Tile_walk>("walk");
+    const auto seeds = read<RW::Tile_seeds>("seeds");
+    Json report = {{"tiles", tasks_.size()},      {"faces", plan.faces},
+                   {"components", walk.components}, {"clusters", walk.clusters},
+                   {"seeds", seeds.seeds.size()}, {"fragments", all.of_fragment.size()},
+                   {"turned_sides", seeds.turned_sides}, {"segments", Json::array()},
+                   {"failed", failures()},        {"version", version()}};
+    for (std::size_t s = 0; s < faces.size(); ++s)
+      report["segments"].push_back(
+          {{"label", s}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
+    if (!faces.empty()) report["levels"] = all.tree().levels(all.suggested);
+    mesh_files::Output_file file(folder_ + "/report");
+    file.write(report.dump() + "\n");
+    file.commit();
+  }
+
+  const std::vector<Task>& tasks_;
+  const Options& options_;
+  std::string folder_;
+  RW::Tiled_segmentation method_;
+};
+
+}  // namespace segment_mesh
+
+#endif

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+
+#include "run_tiles.h"
+
+#include "../Progress_bar.h"
+#include "../failure.h"
+#include "../signals.h"
+#include "Tile_steps.h"
+#include "Worker_pool.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace segment_mesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder for what steps leave: the user's, which stays, or one for the time of the work.
+class Work_folder {
+ public:
+  explicit Work_folder(std::string path) : path_(std::move(path)) {
+    std::error_code error;
+    if (path_.empty()) {
+      std::string name = (fs::temp_directory_path() / "segment_mesh_XXXXXX").string();
+      if (!::mkdtemp(name.data())) throw mesh_files::Unwritable_file(name + ": cannot be made");
+      path_ = name;
+      is_temporary_ = true;
+    } else if (fs::create_directories(path_, error); error) {
+      throw mesh_files::Unwritable_file(path_ + ": " + error.message());
+    }
+  }
+  Work_folder(const Work_folder&) = delete;
+  Work_folder& operator=(const Work_folder&) = delete;
+  ~Work_folder() {
+    std::error_code ignored;
+    if (is_temporary_) fs::remove_all(path_, ignored);
+  }
+
+  const std::string& path() const { return path_; }
+
+  /// Refuses a folder that other tiles or options have left their files in.
+  void claim(const std::string& parameters) const {
+    const std::string path = path_ + "/parameters.json";
+    if (fs::exists(path)) {
+      if (mesh_files::read_content(path) != parameters)
+        throw Argument_out_of_range("--tile-folder " + path_ +
+                                    " holds the work on other tiles or with other options: give another folder, or "
+                                    "remove it");
+      return;
+    }
+    mesh_files::Output_file file(path);
+    file.write(parameters);
+    file.commit();
+  }
+
+ private:
+  std::string path_;
+  bool is_temporary_ = false;
+};
+
+/// Forgets what the steps from the second one on have left, if a tile has changed, and what tells of levels in any case.
+void forget_old_work(const Tile_steps& steps) {
+  bool is_any_new = false;
+  for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) {
+    if (steps.has_changed(t)) steps.forget(Tile_steps::named("survey"), t);
+    is_any_new = is_any_new || !steps.is_done(Tile_steps::named("survey"), t);
+  }
+  bool depends_on_level = false;
+  for (const Tile_steps::Step& step : Tile_steps::all()) {
+    depends_on_level = depends_on_level || step.name == std::string("merge");
+    if (step.name == std::string("survey") || !(is_any_new || depends_on_level)) continue;
+    for (std::size_t t = 0; t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t) steps.forget(step, t);
+  }
+}
+
+/// Does a step in this process.
+Exit_code do_step(const Tile_steps& steps, const Tile_steps::Step& step, std::size_t tile, const Options& options) {
+  try {
+    (steps.*step.run)(tile);
+    return success;
+  } catch (const std::exception&) {
+    const Outcome outcome = failure("step " + std::string(step.name), options);
+    say(outcome.message);
+    return outcome.code;
+  }
+}
+
+Exit_code do_all_steps(const Tile_steps& steps, const Options& options, Json& report) {
+  Worker_pool pool(options.workers.value_or(std::max(1U, std::thread::hardware_concurrency())));
+  Progress_bar bar(!options.is_quiet);
+  Json costs = Json::object();
+  forget_old_work(steps);
+  for (const Tile_steps::Step& step : Tile_steps::all()) {
+    std::vector<std::size_t> jobs;
+    for (std::size_t t = 0; t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
+      if (!steps.is_done(step, t)) jobs.push_back(t);
+    bar.start(step.name);
+    Job_costs of_step;
+    const Exit_code code = pool.run(
+        jobs, [&](std::size_t tile) { return do_step(steps, step, tile, options); },
+        [&](std::size_t done) { bar.show(static_cast<double>(done) / static_cast<double>(jobs.size())); }, of_step);
+    bar.clear();
+    if (of_step.again > 0 && !options.is_quiet)
+      say("step " + std::string(step.name) + ": " + counted(of_step.again, "job was lost", "jobs were lost") +
+          " and done again");
+    if (code != success) return code;
+    costs[step.name] = {{"jobs", jobs.size()}, {"seconds", of_step.seconds}, {"largest_job_mb", of_step.megabytes}};
+    if (step.name == std::string("survey") && steps.failures().size() == steps.number_of_tiles()) {
+      for (const std::string& failure : steps.failures()) say(failure);
+      return unreadable_input;
+    }
+  }
+  report = steps.read_report();
+  report["steps"] = std::move(costs);
+  return success;
+}
+
+}  // namespace
+
+Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& report) {
+  for (Task& tile : tiles) tile.files.report.clear();  // there is one for all tiles
+  if (!options.tile_step.empty() && options.tile_folder.empty())
+    throw CLI::ValidationError("--tile-step", "it finds what other steps have left in a folder: give --tile-folder, too");
+  const Work_folder folder(options.tile_folder);
+  const Tile_steps steps(tiles, options, folder.path());
+  folder.claim(steps.parameters());
+  survive_signals();
+  if (!options.tile_step.empty()) {
+    const Tile_steps::Step& step = Tile_steps::named(options.tile_step);
+    if (step.is_of_each_tile != options.tile.has_value())
+      throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
+                                                                : "this step is for all tiles: leave it out");
+    if (options.tile && *options.tile >= tiles.size())
+      throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
+                                  counted(tiles.size(), "tile") + ", numbered from 0");
+    return do_step(steps, step, options.tile.value_or(0), options);
+  }
+  const Exit_code code = do_all_steps(steps, options, report);
+  if (code != success) return code;
+  if (!options.files.report.empty()) {
+    mesh_files::Output_file file(options.files.report);
+    file.write(report.dump() + "\n");
+    file.commit();
+  }
+  if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
+    say("some tiles are not oriented alike where they meet, and no segment goes on there");
+  for (const Json& failed : report["failed"]) say(failed.get<std::string>());
+  if (report["failed"].empty()) return success;
+  say(std::to_string(report["failed"].size()) + " of " + counted(tiles.size(), "tile") +
+      " could not be read; the others have their segments");
+  return some_meshes_failed;
+}
+
+}  // namespace segment_mesh
