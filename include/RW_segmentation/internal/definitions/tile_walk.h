@@ -8,9 +8,10 @@
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/definitions/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
+#include <RW_segmentation/internal/seeds/farthest_points.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
 #include <RW_segmentation/internal/walk/Face_clusters.h>
