@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: MIT
+
+// A mesh in tiles beside the same mesh as a whole, and the steps by themselves.
+
+#include <RW_segmentation/tiled_segmentation.h>
+
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/internal/tiles/Joined_faces.h>
+#include <RW_segmentation/internal/tiles/Turn_histogram.h>
+#include <RW_segmentation/segmentation_via_random_walks.h>
+
+#include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
+#include "meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace RW_segmentation;
+
+namespace {
+
+using Index = Dual_mesh::Index;
+using Labels = std::vector<std::size_t>;
+using meshes::Shape;
+
+// ---- Cutting ----
+
+/// The mesh as a single tile.
+Tile as_tile(const Shape& shape) {
+  Tile tile;
+  tile.points = shape.points;
+  for (const auto& face : shape.faces) {
+    for (const auto v : face) tile.corners.add(static_cast<Index>(v));
+    tile.corners.end_face();
+  }
+  return tile;
+}
+
+/// A mesh in tiles, and where each of its faces has come to.
+struct Cut_mesh {
+  std::vector<Tile> tiles;
+  std::vector<std::pair<std::size_t, std::size_t>> place;  // by face: tile, and face of it
+
+  /// What tiles say of their faces, in the order of the mesh.
+  Labels of_whole(const std::vector<Labels>& of_tiles) const {
+    Labels labels;
+    for (const auto& [tile, face] : place) labels.push_back(of_tiles[tile][face]);
+    return labels;
+  }
+};
+
+/// Gives each face to the tile that a function of its middle tells.
+Cut_mesh cut(const Shape& shape, std::size_t tiles, const std::function<std::size_t(const Eigen::Vector3d&)>& tile_at) {
+  Cut_mesh result;
+  result.tiles.resize(tiles);
+  std::vector<std::map<std::size_t, Index>> number(tiles);
+  for (const auto& face : shape.faces) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
+    const std::size_t t = tile_at(middle);
+    Tile& tile = result.tiles[t];
+    result.place.emplace_back(t, tile.number_of_faces());
+    for (const auto v : face) {
+      const auto [place, is_new] = number[t].emplace(v, static_cast<Index>(tile.points.size()));
+      if (is_new) {
+        tile.points.push_back(shape.points[v]);
+        tile.vertex_ids.push_back(1000 + v);
+      }
+      tile.corners.add(place->second);
+    }
+    tile.corners.end_face();
+  }
+  for (Tile& tile : result.tiles) tile.vertex_ids.clear();
+  return result;
+}
+
+/// Slices along x, which the balls of the chain do not end at.
+Cut_mesh slices(const Shape& shape, std::size_t tiles) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : shape.points) box.extend(p);
+  return cut(shape, tiles, [&](const Eigen::Vector3d& p) {
+    const double along = (p[0] - box.min()[0]) / box.sizes()[0];
+    return std::min(tiles - 1, static_cast<std::size_t>(along * static_cast<double>(tiles)));
+  });
+}
+
+/// Octants round a point that is not in the middle.
+Cut_mesh octants(const Shape& shape) {
+  return cut(shape, 8, [](const Eigen::Vector3d& p) {
+    return std::size_t(p[0] > 0.13) + 2 * std::size_t(p[1] > 0.07) + 4 * std::size_t(p[2] > -0.05);
+  });
+}
+
+/// Two balls with a neck between them.
+Shape dumbbell() { return meshes::two_spheres_with_neck(2.6, 0.35, 40); }
+
+double rand_error(const Labels& a, const Labels& b) {
+  return segmentation_measures::Overlaps(a, b).rand_index_error();
+}
+
+Labels segments_of_whole(const Shape& shape, std::size_t segments) {
+  auto mesh = meshes::surface_mesh(shape);
+  const auto ids = mesh.add_property_map<meshes::Surface_mesh::Face_index, std::size_t>("f:id").first;
+  Automatic_segmentation policies(segments);
+  policies.reduction.largest_direct = 0;
+  segmentation_via_random_walks(mesh, ids, policies);
+  return {ids.begin(), ids.end()};
+}
+
+Labels segments_of_tiles(const Cut_mesh& mesh, std::size_t segments) {
+  return mesh.of_whole(hierarchy_of_tiles(mesh.tiles, Tiled_segmentation(segments)).segments(segments));
+}
+
+std::vector<Tile_survey> surveys_of(const std::vector<Tile>& tiles) {
+  std::vector<Tile_survey> surveys;
+  for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
+  return surveys;
+}
+
+// ---- Tiles beside the whole ----
+
+TEST(TiledSegmentation, CutsWhereTheWholeIsCutHoweverItIsTiled) {
+  const Shape shape = dumbbell();
+  const Labels whole = segments_of_whole(shape, 2);
+  for (const Cut_mesh& mesh : {slices(shape, 1), slices(shape, 2), slices(shape, 5), octants(shape)}) {
+    const Labels tiled = segments_of_tiles(mesh, 2);
+    EXPECT_EQ(std::set<std::size_t>(tiled.begin(), tiled.end()).size(), 2U);
+    EXPECT_LE(rand_error(whole, tiled), 0.02);
+  }
+}
+
+TEST(TiledSegmentation, KeepsTheBallsOfADumbbellApart) {
+  constexpr double end_of_neck = 0.5;  // of which either ball may have any part
+  const Shape shape = dumbbell();
+  const Labels labels = segments_of_tiles(octants(shape), 2);
+  std::set<std::size_t> lower, upper;
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    const double z = shape.points[shape.faces[f][0]][2];
+    if (z < -end_of_neck) lower.insert(labels[f]);
+    if (z > end_of_neck) upper.insert(labels[f]);
+  }
+  EXPECT_EQ(lower.size(), 1U);
+  EXPECT_EQ(upper.size(), 1U);
+  EXPECT_NE(lower, upper);
+}
+
+TEST(TiledSegmentation, DoesNotDependOnTheOrderInWhichTilesAreDone) {
+  const Cut_mesh mesh = octants(dumbbell());
+  const std::size_t count = mesh.tiles.size();
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+  const auto of_neighbours = [&](const auto& of_tiles, std::size_t t) {
+    std::decay_t<decltype(of_tiles)> result;
+    for (const auto n : plan.tiles[t].neighbours) result.push_back(of_tiles[n]);
+    return result;
+  };
+  std::vector<Tile_border> borders(count);
+  std::vector<Tile_noise> noises(count);
+  for (std::size_t t = count; t-- > 0;) borders[t] = border_of_tile(mesh.tiles[t], t, plan, noises[t]);
+  std::vector<Tile_shape> shapes(count);
+  std::vector<Tile_outline> outlines(count);
+  for (std::size_t t = count; t-- > 0;)
+    shapes[t] =
+        shape_of_tile(mesh.tiles[t], t, plan, of_neighbours(borders, t), noise_of_tiles(noises), outlines[t]);
+  const Tile_seeds seeds = seeds_of_tiles(plan, outlines);
+  std::vector<Tile_clusters> clusters(count);
+  std::vector<Tile_network> networks(count);
+  for (std::size_t t = count; t-- > 0;) clusters[t] = clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t]);
+  const Tile_walk walk = walk_over_tiles(plan, seeds, networks);
+  std::vector<std::vector<Index>> fragments(count);
+  std::vector<Tile_regions> regions(count);
+  for (std::size_t t = count; t-- > 0;)
+    fragments[t] = fragments_of_tile(shapes[t], t, plan, clusters[t], seeds, of_neighbours(borders, t),
+                                     of_neighbours(networks, t), walk, regions[t]);
+  const Merge_tree tree = merge_tiles(walk, regions);
+
+  const Tiled_hierarchy in_order = hierarchy_of_tiles(mesh.tiles);
+  EXPECT_EQ(fragments, in_order.fragment_of_face);
+  ASSERT_EQ(tree.merges().size(), in_order.tree.merges().size());
+  for (std::size_t i = 0; i < tree.merges().size(); ++i)
+    EXPECT_EQ(tree.merges()[i].cost, in_order.tree.merges()[i].cost);
+}
+
+TEST(TiledSegmentation, NeverJoinsWhatHangsTogetherNowhere) {
+  const Shape shape = meshes::together(meshes::sphere(4), meshes::moved(meshes::sphere(4), {2.5, 0.3, 0}));
+  const Cut_mesh mesh = slices(shape, 3);
+  const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
+  EXPECT_EQ(hierarchy.components, 2U);
+  const Labels labels = mesh.of_whole(hierarchy.segments(2));
+  for (std::size_t f = 0; f < labels.size(); ++f) EXPECT_EQ(labels[f], labels[f < labels.size() / 2 ? 0 : labels.size() - 1]);
+  EXPECT_NE(labels.front(), labels.back());
+  EXPECT_THROW(hierarchy.segments(1), std::invalid_argument);
+}
+
+TEST(TiledSegmentation, TakesEmptyTilesAndNoTiles) {
+  std::vector<Tile> tiles = slices(dumbbell(), 2).tiles;
+  const Tiled_hierarchy without = hierarchy_of_tiles(tiles);
+  tiles.emplace_back();
+  const Tiled_hierarchy with = hierarchy_of_tiles(tiles);
+  EXPECT_TRUE(with.fragment_of_face[2].empty());
+  EXPECT_EQ(with.fragment_of_face[0], without.fragment_of_face[0]);
+  EXPECT_EQ(hierarchy_of_tiles({}).tree.number_of_fragments(), 0U);
+  EXPECT_EQ(hierarchy_of_tiles({Tile(), Tile()}).tree.number_of_fragments(), 0U);
+}
+
+TEST(TiledSegmentation, ReadsAnyMeshAsATile) {
+  const Shape shape = meshes::cube_of_quads();
+  const auto mesh = meshes::surface_mesh(shape);
+  const Tile_of tile(mesh);
+  ASSERT_EQ(tile.number_of_faces(), shape.faces.size());
+  for (Index f = 0; f < tile.number_of_faces(); ++f) {
+    std::set<std::size_t> corners;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(tile.face_descriptors[f]))) corners.insert(v);
+    std::set<std::size_t> places;
+    for (const auto c : tile.corners[f])
+      for (std::size_t v = 0; v < shape.points.size(); ++v)
+        if (shape.points[v] == tile.points[c]) places.insert(v);
+    EXPECT_EQ(places, corners);
+  }
+}
+
+TEST(TiledSegmentation, TellsItsProgressAndMayBeCancelled) {
+  const std::vector<Tile> tiles = slices(dumbbell(), 3).tiles;
+  std::vector<double> told;
+  hierarchy_of_tiles(tiles, {}, Progress([&](double fraction) {
+    told.push_back(fraction);
+    return true;
+  }));
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+  for (const double end : {0.1, 0.5, 0.8})
+    EXPECT_THROW(hierarchy_of_tiles(tiles, {}, Progress([&](double fraction) { return fraction < end; })), Cancelled);
+}
+
+// ---- Measures of the whole ----
+
+TEST(TiledSegmentation, MeasuresAreThoseOfTheWhole) {
+  const Shape shape = dumbbell();
+  const Tile_plan whole = plan_tiles({survey_tile(as_tile(shape))});
+  const Tile_plan tiled = plan_tiles(surveys_of(octants(shape).tiles));
+  EXPECT_DOUBLE_EQ(whole.box.unit, tiled.box.unit);
+  EXPECT_EQ(whole.box.origin, tiled.box.origin);
+  EXPECT_NEAR(whole.total_area, tiled.total_area, 1e-12 * whole.total_area);
+  const auto mesh = meshes::surface_mesh(shape);
+  EXPECT_NEAR(whole.total_area, Dual_mesh_of(mesh).total_area(), 1e-12 * whole.total_area);
+}
+
+TEST(TiledSegmentation, NormalsOfATileAreThoseOfTheWhole) {
+  constexpr double largest_turn = 0.02;  // radians, of which e^-4 lies beyond the halo and 5e-4 is the solver's
+  const Shape shape = dumbbell();
+  const Cut_mesh mesh = octants(shape);
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+  const auto surface = meshes::surface_mesh(shape);
+  const Dual_mesh_of whole = smoothed_shape(Dual_mesh_of(surface));
+  std::vector<Tile_border> borders;
+  std::vector<Tile_noise> noises(mesh.tiles.size());
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
+    borders.push_back(border_of_tile(mesh.tiles[t], t, plan, noises[t]));
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t) {
+    std::vector<Tile_border> neighbours;
+    for (const auto n : plan.tiles[t].neighbours) neighbours.push_back(borders[n]);
+    Tile_outline outline;
+    const Tile_shape of_tile = shape_of_tile(mesh.tiles[t], t, plan, neighbours, noise_of_tiles(noises), outline);
+    EXPECT_GT(of_tile.halo.size(), 0U);
+    for (std::size_t f = 0; f < mesh.place.size(); ++f) {
+      if (mesh.place[f].first != t) continue;
+      const Eigen::Vector3d& tiled = of_tile.mesh.shape_normals()[mesh.place[f].second];
+      const Index face = whole.index(meshes::Surface_mesh::Face_index(static_cast<unsigned>(f)));
+      EXPECT_LE((tiled - whole.shape_normals()[face]).norm(), largest_turn);
+    }
+  }
+}
+
+TEST(TiledSegmentation, ThicknessIsMeasuredThroughOtherTiles) {
+  const Shape shape = meshes::sphere(4);  // of radius 1
+  const Cut_mesh mesh = octants(shape);
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+  // Of the rays of a probe on a ball of radius 1, within half a radian of the normal, the middle one is 2 cos(a) long.
+  Tiled_segmentation options;
+  options.thickness.rays = 1;
+  std::vector<Tile_shape> shapes;
+  std::vector<Tile_outline> outlines(mesh.tiles.size());
+  std::vector<Tile_border> borders;
+  std::vector<Tile_noise> noises(mesh.tiles.size());
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
+    borders.push_back(border_of_tile(mesh.tiles[t], t, plan, noises[t]));
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
+    shapes.push_back(shape_of_tile(mesh.tiles[t], t, plan, {}, {}, outlines[t], options));
+  const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options);
+  EXPECT_NEAR(static_cast<double>(seeds.probes.size()), 500, 5);
+  std::vector<Tile_network> networks(mesh.tiles.size());
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
+    clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t], options);
+  for (const double thickness : walk_over_tiles(plan, seeds, networks, options).thickness)
+    EXPECT_NEAR(thickness * plan.box.unit, 2, 0.02);
+}
+
+TEST(TiledSegmentation, NoiseIsThatOfTheWhole) {
+  const Shape shape = meshes::with_noise(meshes::sphere(4), 0.01);
+  const auto noise_of = [](const std::vector<Tile>& tiles) {
+    const Tile_plan plan = plan_tiles(surveys_of(tiles));
+    std::vector<Tile_noise> noises(tiles.size());
+    for (std::size_t t = 0; t < tiles.size(); ++t) border_of_tile(tiles[t], t, plan, noises[t]);
+    return noise_of_tiles(noises).turn;
+  };
+  const double whole = noise_of({as_tile(shape)});
+  EXPECT_GT(whole, 0.1);
+  EXPECT_NEAR(noise_of(octants(shape).tiles), whole, 0.05 * whole);
+}
+
+// ---- Where tiles meet ----
+
+TEST(TiledSegmentation, TilesMeetByPlacesWithinAToleranceOrById) {
+  Cut_mesh mesh = slices(meshes::sphere(3), 2);
+  const auto shared = [&](double tolerance) {
+    Tiled_segmentation options;
+    options.tolerance = tolerance;
+    return plan_tiles(surveys_of(mesh.tiles), options).tiles[0].shared_vertices.size();
+  };
+  const std::size_t all = shared(0);
+  EXPECT_GT(all, 10U);
+  for (Eigen::Vector3d& p : mesh.tiles[1].points) p += Eigen::Vector3d(3e-4, 0, 0);
+  EXPECT_EQ(shared(0), 0U);
+  EXPECT_EQ(shared(1e-4), 0U);
+  EXPECT_EQ(shared(1e-3), all);
+  for (std::size_t t = 0; t < 2; ++t) {
+    Tile& tile = mesh.tiles[t];
+    tile.vertex_ids.resize(tile.points.size());
+    for (std::size_t v = 0; v < tile.points.size(); ++v)  // the place before it was moved, rounded
+      tile.vertex_ids[v] = static_cast<std::uint64_t>(
+          std::llround(1e3 * (5 + tile.points[v][0] - 3e-4 * static_cast<double>(t))) * 100000000 +
+          std::llround(1e3 * (5 + tile.points[v][1])) * 10000 + std::llround(1e3 * (5 + tile.points[v][2])));
+  }
+  EXPECT_EQ(shared(0), all);
+  mesh.tiles[1].vertex_ids.clear();
+  EXPECT_THROW(shared(0), std::invalid_argument);
+  mesh.tiles[0].vertex_ids.clear();
+  EXPECT_THROW(shared(-1), std::invalid_argument);
+  EXPECT_THROW(shared(std::nan("")), std::invalid_argument);
+}
+
+TEST(TiledSegmentation, NeighboursAreTilesThatShareAVertex) {
+  const Cut_mesh mesh = slices(meshes::tube(10, 12, 40), 4);
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+  ASSERT_EQ(plan.tiles.size(), 4U);
+  for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(plan.tiles[t].neighbours.empty());
+  for (std::size_t t = 0; t < 4; ++t)
+    for (const auto n : plan.tiles[t].neighbours) {  // sharing is mutual
+      const auto& back = plan.tiles[n].neighbours;
+      EXPECT_NE(n, t);
+      EXPECT_TRUE(std::binary_search(back.begin(), back.end(), static_cast<Index>(t)));
+    }
+}
+
+TEST(TiledSegmentation, TellsOfTilesThatAreNotOrientedAlike) {
+  Cut_mesh mesh = slices(meshes::sphere(3), 2);
+  EXPECT_EQ(hierarchy_of_tiles(mesh.tiles).turned_sides, 0U);
+  Tile turned;
+  turned.points = mesh.tiles[1].points;
+  for (Index f = 0; f < mesh.tiles[1].number_of_faces(); ++f) {
+    const auto corners = mesh.tiles[1].corners[f];
+    for (std::size_t k = corners.size(); k-- > 0;) turned.corners.add(corners[k]);
+    turned.corners.end_face();
+  }
+  mesh.tiles[1] = turned;
+  const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
+  EXPECT_GT(hierarchy.turned_sides, 0U);
+  EXPECT_EQ(hierarchy.components, 2U);
+}
+
+TEST(TiledSegmentation, RefusesTilesThatAreNoMeshes) {
+  const Tile good = as_tile(meshes::cube());
+  EXPECT_NO_THROW(survey_tile(good));
+  Tile bad = good;
+  bad.points[3][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(survey_tile(bad), std::invalid_argument);
+  bad = good;
+  bad.corners.add(0);
+  bad.corners.add(1);
+  bad.corners.end_face();
+  EXPECT_THROW(survey_tile(bad), std::invalid_argument);
+  bad = good;
+  for (const Index v : {0U, 1U, 1000U}) bad.corners.add(v);
+  bad.corners.end_face();
+  EXPECT_THROW(survey_tile(bad), std::invalid_argument);
+  bad = good;
+  bad.vertex_ids = {1, 2};
+  EXPECT_THROW(survey_tile(bad), std::invalid_argument);
+  Tiled_segmentation no_seeds;
+  no_seeds.seeds = 0;
+  EXPECT_THROW(hierarchy_of_tiles({good}, no_seeds), std::invalid_argument);
+}
+
+// ---- Parts ----
+
+TEST(JoinedFaces, AreThoseOfTheHalfedgeMesh) {
+  for (const Shape& shape : {meshes::sphere(2), meshes::plane(5), meshes::cube_of_quads()}) {
+    const Tile tile = as_tile(shape);
+    const internal::Joined_faces joined(tile.corners, tile.points.size());
+    const auto mesh = meshes::surface_mesh(shape);
+    std::set<std::array<Index, 2>> expected;
+    std::size_t border = 0;
+    for (const auto e : mesh.edges()) {
+      border += mesh.is_border(e);
+      if (mesh.is_border(e)) continue;
+      const Index f = mesh.face(mesh.halfedge(e, 0)), g = mesh.face(mesh.halfedge(e, 1));
+      expected.insert({std::min(f, g), std::max(f, g)});
+    }
+    EXPECT_EQ(std::set(joined.sides.begin(), joined.sides.end()), expected);
+    EXPECT_EQ(joined.open_ends.size(), border);
+    EXPECT_EQ(joined.turned_sides, 0U);
+    EXPECT_TRUE(std::is_sorted(joined.sides.begin(), joined.sides.end()));
+  }
+}
+
+TEST(JoinedFaces, LeaveSidesOpenWhereMoreThanTwoFacesMeet) {
+  Shape fan;  // three triangles at one edge
+  fan.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}};
+  fan.faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const Tile tile = as_tile(fan);
+  const internal::Joined_faces joined(tile.corners, tile.points.size());
+  EXPECT_TRUE(joined.sides.empty());
+  EXPECT_EQ(joined.open_ends.size(), 9U);
+}
+
+TEST(TurnHistogram, KeepsMedianAndMeansWithinItsSteps) {
+  using Histogram = internal::Turn_histogram;
+  std::vector<double> turns;
+  for (std::size_t i = 1; i <= 2001; ++i) turns.push_back(0.0007 * static_cast<double>(i));
+  const auto half = turns.begin() + 1000;
+  Histogram::Counts sum = Histogram::counts({half, turns.end()});
+  Histogram::add(Histogram::counts({turns.begin(), half}), sum);
+  EXPECT_EQ(sum, Histogram::counts(turns));
+  EXPECT_NEAR(Histogram::median(sum), turns[1000], Histogram::step * turns[1000]);
+  const double mean = std::accumulate(turns.begin(), turns.end(), 0.) / static_cast<double>(turns.size());
+  EXPECT_NEAR(Histogram::mean(sum, [](double t) { return t; }), mean, 1e-3 * mean);
+  EXPECT_EQ(Histogram::median({}), 0);
+  EXPECT_EQ(Histogram::median(Histogram::counts({0, 0, 1e-9})), 0);
+}
+
+}  // namespace

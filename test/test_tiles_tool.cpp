@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+
+// The tool on tiles of one mesh: steps in files, workers that are killed, work that goes on where it stopped.
+
+#include <gtest/gtest.h>
+#include "meshes.h"
+#include "segment_mesh_tool.h"
+
+#include <nlohmann/json.hpp>
+
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace segment_mesh_tool;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<const char*> step_names = {"survey",   "plan", "border",    "noise", "shape",  "seeds",
+                                             "clusters", "walk", "fragments", "merge", "labels", "report"};
+bool is_of_each_tile(const std::string& step) {
+  return std::set<std::string>{"survey", "border", "shape", "clusters", "fragments", "labels"}.count(step) > 0;
+}
+
+/// Four tiles of a dumbbell: quarters round its axis.
+class Tiles : public Segment_mesh_tool {
+ protected:
+  void SetUp() override {
+    Segment_mesh_tool::SetUp();
+    write_tiles(meshes::two_spheres_with_neck(2.6, 0.35, 40));
+  }
+
+  void write_tiles(const meshes::Shape& shape) {
+    for (std::size_t t = 0; t < 4; ++t) {
+      std::map<std::size_t, std::size_t> number;
+      std::ostringstream points, faces;
+      points.precision(17);
+      std::size_t count = 0;
+      for (const auto& face : shape.faces) {
+        const Eigen::Vector3d middle = (shape.points[face[0]] + shape.points[face[1]] + shape.points[face[2]]) / 3;
+        if (std::size_t(middle[0] > 0.1) + 2 * std::size_t(middle[2] > 0.9) != t) continue;
+        ++count;
+        faces << face.size();
+        for (const auto v : face) {
+          const auto [place, is_new] = number.emplace(v, number.size());
+          if (is_new) points << shape.points[v].transpose() << '\n';
+          faces << ' ' << place->second;
+        }
+        faces << '\n';
+      }
+      faces_[t] = count;
+      std::ostringstream off;
+      off << "OFF\n" << number.size() << ' ' << count << " 0\n" << points.str() << faces.str();
+      write(name(t), off.str());
+    }
+  }
+
+  static std::string name(std::size_t tile) { return "tile_" + std::to_string(tile) + ".off"; }
+
+  static std::vector<std::string> command(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {name(0), name(1), name(2), name(3), "--tiled", "--labels", "%.seg"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  /// The labels of all tiles, which are taken away.
+  std::vector<std::vector<std::size_t>> take_labels() const {
+    std::vector<std::vector<std::size_t>> all;
+    for (std::size_t t = 0; t < 4; ++t) {
+      const std::string file = "tile_" + std::to_string(t) + ".seg";
+      all.push_back(labels(file));
+      fs::remove(path(file));
+    }
+    return all;
+  }
+
+  std::size_t faces_[4] = {};
+};
+
+TEST_F(Tiles, HaveOneLabelWhereverASegmentGoesOn) {
+  const Result result = run(command({"--segments", "2", "--report", "report.json", "--output", "%.ply"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto all = take_labels();
+  const Json report = Json::parse(content_of(path("report.json")));
+  ASSERT_EQ(report["segments"].size(), 2U);
+  std::vector<std::size_t> faces(2, 0);
+  for (std::size_t t = 0; t < 4; ++t) {
+    EXPECT_EQ(all[t].size(), faces_[t]);
+    for (const std::size_t label : all[t]) ++faces.at(label);
+    EXPECT_TRUE(fs::exists(path("tile_" + std::to_string(t) + ".ply")));
+  }
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_EQ(report["segments"][s]["faces"], faces[s]);
+    EXPECT_NEAR(report["segments"][s]["area_share"].get<double>(), 0.5, 0.1);
+  }
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_EQ(report["tiles"], 4);
+  // The two tiles above 0.9 have the upper ball alone.
+  EXPECT_EQ(std::set<std::size_t>(all[2].begin(), all[2].end()), std::set<std::size_t>(all[3].begin(), all[3].end()));
+}
+
+TEST_F(Tiles, GetTheSameLabelsByOneWorkerManyOrStepByStep) {
+  ASSERT_EQ(run(command({"--workers", "1"})).exit_code, 0);
+  const auto by_one = take_labels();
+  ASSERT_EQ(run(command({"--workers", "4"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), by_one);
+  for (const std::string step : step_names)
+    for (std::size_t t = is_of_each_tile(step) ? 4 : 1; t-- > 0;) {  // the last tile first
+      std::vector<std::string> more = {"--tile-folder", "work", "--tile-step", step};
+      if (is_of_each_tile(step)) more.insert(more.end(), {"--tile", std::to_string(t)});
+      const Result result = run(command(more));
+      ASSERT_EQ(result.exit_code, 0) << step << result.errors;
+    }
+  EXPECT_EQ(take_labels(), by_one);
+}
+
+TEST_F(Tiles, GetTheSameLabelsWhenWorkersAndTheProgramAreKilled) {
+  write_tiles(meshes::subdivided(meshes::subdivided(meshes::two_spheres_with_neck(2.6, 0.35, 40))));
+  ASSERT_EQ(run(command({})).exit_code, 0);
+  const auto undisturbed = take_labels();
+
+  using namespace std::chrono_literals;
+  const pid_t program = start(command({"--tile-folder", "work", "--workers", "2"}));
+  std::this_thread::sleep_for(150ms);
+  std::ifstream children("/proc/" + std::to_string(program) + "/task/" + std::to_string(program) + "/children");
+  pid_t worker = 0;
+  if (children >> worker) kill(worker, SIGKILL);
+  const Result result = wait(program);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(take_labels(), undisturbed);
+
+  fs::remove_all(path("work"));
+  for (const auto pause : {50ms, 150ms, 250ms}) {
+    const pid_t killed = start(command({"--tile-folder", "work", "--workers", "2"}));
+    std::this_thread::sleep_for(pause);
+    kill(killed, SIGKILL);
+    wait(killed);
+  }
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), undisturbed);
+}
+
+TEST_F(Tiles, OfWhichOneCannotBeReadLeaveTheOthersTheirSegments) {
+  write("tile_1.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n");
+  const Result result = run(command({"--quiet", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_NE(result.errors.find("tile_1.off"), std::string::npos) << result.errors;
+  EXPECT_FALSE(fs::exists(path("tile_1.seg")));
+  for (const std::size_t t : {0, 2, 3}) EXPECT_EQ(labels("tile_" + std::to_string(t) + ".seg").size(), faces_[t]);
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["failed"].size(), 1U);
+  for (std::size_t t = 0; t < 4; ++t) write(name(t), "nothing");
+  EXPECT_EQ(run(command({"--quiet"})).exit_code, 2);
+}
+
+TEST_F(Tiles, OtherNumbersOfSegmentsTakeTheLastStepsAlone) {
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);
+  const auto shape_of = [&] { return fs::last_write_time(path("work/shape_0")); };
+  const auto before = shape_of();
+  const auto two = take_labels();
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "5", "--report", "report.json"})).exit_code, 0);
+  EXPECT_EQ(shape_of(), before);
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["segments"].size(), 5U);
+  const auto five = take_labels();
+  std::map<std::size_t, std::set<std::size_t>> coarser;  // levels are nested
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) coarser[five[t][f]].insert(two[t][f]);
+  for (const auto& [segment, segments] : coarser) EXPECT_EQ(segments.size(), 1U);
+
+  write(name(0), content_of(path(name(0))) + "# changed\n");
+  fs::last_write_time(path(name(0)), fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);
+  EXPECT_NE(shape_of(), before);
+  EXPECT_EQ(take_labels(), two);
+}
+
+TEST_F(Tiles, RefuseTheWorkOfOthers) {
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  expect_failure(3, "holds the work on other tiles or with other options",
+                 command({"--tile-folder", "work", "--smoothing", "0.02"}));
+  for (const char* file : {"walk", "plan", "segments"}) {
+    const std::string content = content_of(path(std::string("work/") + file));
+    for (const std::string& broken : {content.substr(0, content.size() / 2), content + "x", std::string(), [&] {
+                                        std::string changed = content;
+                                        changed[changed.size() - 3] ^= 1;
+                                        return changed;
+                                      }()}) {
+      write(std::string("work/") + file, broken);
+      expect_failure(2, file, command({"--tile-folder", "work", "--tile-step",
+                                       file == std::string("plan") ? "seeds" : "report"}));
+    }
+    write(std::string("work/") + file, content);
+  }
+}
+
+TEST_F(Tiles, RefuseWhatTheyCannotHave) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--engineering"}, {"--seed", "3"}, {"--refine"}, {"--html", "a.html"}, {"--paper"},
+        {"--resume"}, {"--report", "%.json"}, {"--tile-step", "survey"}, {"--tile-step", "sing", "--tile-folder", "w"},
+        {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"}, {"--tile-step", "shape", "--tile-folder", "w"},
+        {"--workers", "none"}, {"--constraints-angle", "30"}, {"--time-limit", "3"}}) {
+    const Result result = run(command(options));
+    EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(options) << result.errors;
+    EXPECT_EQ(number_of_lines(result.errors), 1U);
+  }
+  EXPECT_EQ(run(command({"--tile-step", "shape", "--tile", "4", "--tile-folder", "w"})).exit_code, 3);
+  EXPECT_EQ(run(command({"--tolerance", "-1"})).exit_code, 3);
+  EXPECT_EQ(run(command({"--segments", "1000000"})).exit_code, 3);
+  EXPECT_EQ(run({name(0), name(1), "--labels", "%.seg", "--workers", "2"}).exit_code, 1);
+  for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(fs::exists(path("tile_" + std::to_string(t) + ".seg")));
+}
+
+TEST_F(Tiles, StopWhenAskedTo) {
+  const pid_t program = start(command({"--tile-folder", "work"}));
+  using namespace std::chrono_literals;
+  std::this_thread::sleep_for(30ms);
+  kill(program, SIGTERM);
+  const Result result = wait(program);
+  EXPECT_TRUE(result.exit_code == 130 || result.exit_code == 0 || result.exit_code == -SIGTERM) << result.errors;
+  if (fs::exists(path("work")))
+    for (const auto& entry : fs::directory_iterator(path("work")))
+      EXPECT_EQ(entry.path().string().find(".part"), std::string::npos);
+}
+
+}  // namespace
