@@ -126,7 +126,8 @@ double border_share(const Mesh& mesh, const Labels& tile, const Labels& segment)
     if (mesh.is_border(e)) continue;
     const Face f = mesh.face(mesh.halfedge(e, 0)), g = mesh.face(mesh.halfedge(e, 1));
     if (tile[f] == tile[g]) continue;
-    const double length = std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+    const double length =
+        std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
     between_tiles += length;
     if (segment[f] != segment[g]) between_segments += length;
   }
@@ -186,8 +187,10 @@ void measure(const std::string& name, const Arguments& arguments, std::vector<Re
 int main(int argc, char** argv) try {
   Arguments arguments;
   CLI::App app(
-      "Cuts meshes into tiles, segments them tile by tile and as a whole, and compares: the Rand index error between both; "
-      "that between two ways to segment the whole, over faces and over clusters of them; the share of the borders between "
+      "Cuts meshes into tiles, segments them tile by tile and as a whole, and compares: the Rand index error between "
+      "both; "
+      "that between two ways to segment the whole, over faces and over clusters of them; the share of the borders "
+      "between "
       "tiles that lies between segments, tiled and whole; segments; time.");
   app.add_option("--meshes", arguments.meshes, "Files, or names of CGAL's data meshes")
       ->delimiter(',')

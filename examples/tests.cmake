@@ -140,6 +140,15 @@ collection_test(snakemake snakemake snakemake --snakefile ${collections}/Snakefi
 collection_test(segment_mesh sh
   sh -c "mkdir -p outputs && segment_mesh meshes/*.off --quiet --labels outputs/%.seg --resume")
 
+# Tiles of one mesh, by the recipe.
+if(TARGET segment_mesh AND data_dir)
+  add_test(NAME example.tiles.snakemake
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_tiles.sh snakemake $<TARGET_FILE:segment_mesh> ${meshes}
+      ${CMAKE_CURRENT_BINARY_DIR}/tests/tiles.snakemake
+      snakemake --snakefile ${collections}/Snakefile_tiles --cores 2 --config tiles=tiles work=work outputs=outputs)
+  set_tests_properties(example.tiles.snakemake PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+endif()
+
 # The tool's own tests run the tool.
 foreach(test test_segment_mesh_tool test_segment_mesh_input test_capped_parts test_cad_files test_tiles_tool)
   if(TARGET ${test} AND TARGET segment_mesh)

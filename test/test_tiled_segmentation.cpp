@@ -105,9 +105,7 @@ Cut_mesh octants(const Shape& shape) {
 /// Two balls with a neck between them.
 Shape dumbbell() { return meshes::two_spheres_with_neck(2.6, 0.35, 40); }
 
-double rand_error(const Labels& a, const Labels& b) {
-  return segmentation_measures::Overlaps(a, b).rand_index_error();
-}
+double rand_error(const Labels& a, const Labels& b) { return segmentation_measures::Overlaps(a, b).rand_index_error(); }
 
 Labels segments_of_whole(const Shape& shape, std::size_t segments) {
   auto mesh = meshes::surface_mesh(shape);
@@ -170,12 +168,12 @@ TEST(TiledSegmentation, DoesNotDependOnTheOrderInWhichTilesAreDone) {
   std::vector<Tile_shape> shapes(count);
   std::vector<Tile_outline> outlines(count);
   for (std::size_t t = count; t-- > 0;)
-    shapes[t] =
-        shape_of_tile(mesh.tiles[t], t, plan, of_neighbours(borders, t), noise_of_tiles(noises), outlines[t]);
+    shapes[t] = shape_of_tile(mesh.tiles[t], t, plan, of_neighbours(borders, t), noise_of_tiles(noises), outlines[t]);
   const Tile_seeds seeds = seeds_of_tiles(plan, outlines);
   std::vector<Tile_clusters> clusters(count);
   std::vector<Tile_network> networks(count);
-  for (std::size_t t = count; t-- > 0;) clusters[t] = clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t]);
+  for (std::size_t t = count; t-- > 0;)
+    clusters[t] = clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t]);
   const Tile_walk walk = walk_over_tiles(plan, seeds, networks);
   std::vector<std::vector<Index>> fragments(count);
   std::vector<Tile_regions> regions(count);
@@ -197,7 +195,8 @@ TEST(TiledSegmentation, NeverJoinsWhatHangsTogetherNowhere) {
   const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
   EXPECT_EQ(hierarchy.components, 2U);
   const Labels labels = mesh.of_whole(hierarchy.segments(2));
-  for (std::size_t f = 0; f < labels.size(); ++f) EXPECT_EQ(labels[f], labels[f < labels.size() / 2 ? 0 : labels.size() - 1]);
+  for (std::size_t f = 0; f < labels.size(); ++f)
+    EXPECT_EQ(labels[f], labels[f < labels.size() / 2 ? 0 : labels.size() - 1]);
   EXPECT_NE(labels.front(), labels.back());
   EXPECT_THROW(hierarchy.segments(1), std::invalid_argument);
 }
@@ -233,9 +232,9 @@ TEST(TiledSegmentation, TellsItsProgressAndMayBeCancelled) {
   const std::vector<Tile> tiles = slices(dumbbell(), 3).tiles;
   std::vector<double> told;
   hierarchy_of_tiles(tiles, {}, Progress([&](double fraction) {
-    told.push_back(fraction);
-    return true;
-  }));
+                       told.push_back(fraction);
+                       return true;
+                     }));
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
   EXPECT_EQ(told.back(), 1);
   for (const double end : {0.1, 0.5, 0.8})

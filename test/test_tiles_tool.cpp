@@ -197,19 +197,28 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
                                         return changed;
                                       }()}) {
       write(std::string("work/") + file, broken);
-      expect_failure(2, file, command({"--tile-folder", "work", "--tile-step",
-                                       file == std::string("plan") ? "seeds" : "report"}));
+      expect_failure(
+          2, file, command({"--tile-folder", "work", "--tile-step", file == std::string("plan") ? "seeds" : "report"}));
     }
     write(std::string("work/") + file, content);
   }
 }
 
 TEST_F(Tiles, RefuseWhatTheyCannotHave) {
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"--engineering"}, {"--seed", "3"}, {"--refine"}, {"--html", "a.html"}, {"--paper"},
-        {"--resume"}, {"--report", "%.json"}, {"--tile-step", "survey"}, {"--tile-step", "sing", "--tile-folder", "w"},
-        {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"}, {"--tile-step", "shape", "--tile-folder", "w"},
-        {"--workers", "none"}, {"--constraints-angle", "30"}, {"--time-limit", "3"}}) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--engineering"},
+                                                  {"--seed", "3"},
+                                                  {"--refine"},
+                                                  {"--html", "a.html"},
+                                                  {"--paper"},
+                                                  {"--resume"},
+                                                  {"--report", "%.json"},
+                                                  {"--tile-step", "survey"},
+                                                  {"--tile-step", "sing", "--tile-folder", "w"},
+                                                  {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"},
+                                                  {"--tile-step", "shape", "--tile-folder", "w"},
+                                                  {"--workers", "none"},
+                                                  {"--constraints-angle", "30"},
+                                                  {"--time-limit", "3"}}) {
     const Result result = run(command(options));
     EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(options) << result.errors;
     EXPECT_EQ(number_of_lines(result.errors), 1U);

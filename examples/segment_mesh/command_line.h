@@ -107,9 +107,10 @@ inline void define_command_line(CLI::App& app, Options& options) {
              "How far apart the same vertex may be in two tiles, in the unit of the coordinates (0)")
       ->option_text("LENGTH")
       ->group("Tiles of one mesh");
-  app.add_option("--tile-folder", options.tile_folder,
-                 "Where steps leave what later ones need, some 150 bytes a face. It stays: run again, only what is not\n"
-                 "there is done, and another --segments takes the last steps alone. (A temporary folder)")
+  app.add_option(
+         "--tile-folder", options.tile_folder,
+         "Where steps leave what later ones need, some 150 bytes a face. It stays: run again, only what is not\n"
+         "there is done, and another --segments takes the last steps alone. (A temporary folder)")
       ->option_text("FOLDER")
       ->group("Tiles of one mesh");
   app.add_option("--tile-step", options.tile_step,

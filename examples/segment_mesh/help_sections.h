@@ -17,7 +17,7 @@ struct Help_section {
   bool is_preformatted;
 };
 
-constexpr std::array<Help_section, 7> help_sections = {{
+constexpr std::array<Help_section, 8> help_sections = {{
     {"Which way",
      "Animals, people, furniture: no option at all. Parts of machines: --engineering. Too many or too few segments:\n"
      "--segments. Parts that you have in mind: --seed, one or more for each. A seed is a face or the closest face to "
@@ -65,6 +65,13 @@ constexpr std::array<Help_section, 7> help_sections = {{
      "--resume, meshes are passed over whose outputs are all there and not older than the mesh; the report goes on\n"
      "after its last line. Whether other options have changed is not looked at.\n",
      false},
+    {"Tiles of one mesh",
+     "With --tiled, the meshes are tiles of one mesh that may be larger than the memory. Segments, labels and the one\n"
+     "--report are those of the whole; outputs with % are written for each tile. Workers are processes of their own:\n"
+     "one that is killed is started again. A tile that cannot be read is told at the end, and the exit code is 6; the\n"
+     "others have their segments. --tile-step does one step, as Snakemake, Dask and others that share jobs among\n"
+     "machines need it; examples/collections has recipes.\n",
+     false},
     {"Exit codes",
      "  0  success\n"
      "  1  wrong usage\n"
@@ -87,7 +94,8 @@ constexpr std::array<Help_section, 7> help_sections = {{
      "  segment_mesh hand.off --html hand.html\n"
      "  segment_mesh part.stl --constraints-angle 40 --segments 9 --labels part.seg\n"
      "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n"
-     "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n",
+     "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n"
+     "  segment_mesh tiles/*.ply --tiled --workers 8 --labels out/%.seg --tile-folder work\n",
      true},
 }};
 

@@ -63,11 +63,11 @@ struct Tiled_segmentation {
 /// What `survey_tile()` finds.
 struct Tile_survey {
   std::size_t faces = 0;
-  double area = 0;                                 ///< of all faces
-  Eigen::AlignedBox3d box;                         ///< of the vertices that have faces
-  std::vector<Dual_mesh::Index> border_vertices;   ///< on open sides, rising
-  std::vector<Eigen::Vector3d> border_points;      ///< of these
-  std::vector<std::uint64_t> border_ids;           ///< of these, if the tile has ids
+  double area = 0;                                ///< of all faces
+  Eigen::AlignedBox3d box;                        ///< of the vertices that have faces
+  std::vector<Dual_mesh::Index> border_vertices;  ///< on open sides, rising
+  std::vector<Eigen::Vector3d> border_points;     ///< of these
+  std::vector<std::uint64_t> border_ids;          ///< of these, if the tile has ids
 };
 
 /// What `plan_tiles()` knows of the whole.
@@ -151,9 +151,9 @@ struct Tile_shape {
     Index neighbour;  ///< the other tile
   };
 
-  Dual_mesh mesh;                 ///< the faces of the tile, then those of the halo
-  std::size_t own_faces = 0;      ///< faces of the tile
-  std::vector<Halo_face> halo;    ///< by face of the halo
+  Dual_mesh mesh;               ///< the faces of the tile, then those of the halo
+  std::size_t own_faces = 0;    ///< faces of the tile
+  std::vector<Halo_face> halo;  ///< by face of the halo
   std::vector<Shared_edge> shared_edges;
 };
 
@@ -169,7 +169,7 @@ struct Tile_outline {
   std::vector<double> lengths;                       ///< of these, in the feature-sensitive metric
   std::vector<internal::Side_value<double>> sides;   ///< lengths between nodes of different tiles
   std::vector<internal::Thickness_probe> probes;     ///< where the thickness is measured
-  std::size_t turned_sides = 0;  ///< sides between faces of which one must be turned inside out
+  std::size_t turned_sides = 0;                      ///< sides between faces of which one must be turned inside out
 };
 
 /// Seeds, and what is ordinary on the whole.
@@ -214,8 +214,8 @@ struct Tile_walk {
   std::vector<std::vector<char>> bands;       ///< by tile and cluster: whether its faces are walked on once more
   std::vector<double> thickness;              ///< by probe, in the unit box; 0 where it could not be measured
   std::size_t number_of_fragments = 0;
-  std::size_t clusters = 0;      ///< of all tiles
-  std::size_t components = 0;    ///< connected parts of the whole mesh
+  std::size_t clusters = 0;         ///< of all tiles
+  std::size_t components = 0;       ///< connected parts of the whole mesh
   std::size_t island_clusters = 0;  ///< that the walk left apart from their fragment, moved to a neighbour
   bool is_solid = false;            ///< whether enough of the whole has a thickness
 };
@@ -225,10 +225,10 @@ struct Tile_regions {
   using Index = Dual_mesh::Index;
   using Boundary_sums = internal::Boundaries_of_cost<Learned_cost, Dual_mesh>::Sums;
 
-  std::vector<Index> fragments;                                               ///< that have faces in the tile, rising
-  std::vector<Learned_cost::Region> regions;                                  ///< of these
-  std::vector<internal::Boundary_of_regions<Boundary_sums>> boundaries;       ///< between fragments, within the tile
-  std::vector<internal::Side_value<Boundary_sums>> sides;                     ///< those at its border
+  std::vector<Index> fragments;                                          ///< that have faces in the tile, rising
+  std::vector<Learned_cost::Region> regions;                             ///< of these
+  std::vector<internal::Boundary_of_regions<Boundary_sums>> boundaries;  ///< between fragments, within the tile
+  std::vector<internal::Side_value<Boundary_sums>> sides;                ///< those at its border
 };
 
 /// Looks at a tile by itself.
@@ -299,7 +299,8 @@ Dual_mesh part_of(const Tile_plan& plan, Face_corners corners, std::vector<Eigen
                   std::size_t* turned_sides = nullptr);
 
 /// The boundaries between all fragments, sorted by these.
-std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tiles(const std::vector<Tile_regions>& tiles);
+std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tiles(
+    const std::vector<Tile_regions>& tiles);
 
 }  // namespace internal
 
@@ -309,11 +310,11 @@ Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& r
 
 /// All levels of a segmentation of tiles.
 struct Tiled_hierarchy {
-  Merge_tree tree;                                             ///< of the fragments
+  Merge_tree tree;                                              ///< of the fragments
   std::vector<std::vector<Dual_mesh::Index>> fragment_of_face;  ///< by tile and face
-  std::size_t components = 0;                                  ///< connected parts of the whole
-  std::size_t clusters = 0;                                    ///< that the walk ran over
-  std::size_t turned_sides = 0;                                ///< see `Tile_seeds`
+  std::size_t components = 0;                                   ///< connected parts of the whole
+  std::size_t clusters = 0;                                     ///< that the walk ran over
+  std::size_t turned_sides = 0;                                 ///< see `Tile_seeds`
 
   /// The segment of each face of each tile at a level of the tree.
   /// \throws std::invalid_argument if there are more components or fewer fragments than `number_of_segments`

@@ -159,8 +159,9 @@ void read_step(const std::string& path, std::string_view kind, Values&... values
   Step_reader(bytes, path)(header);
   const std::string_view content = std::string_view(bytes).substr(size_of_header);
   if (!(header == Step_header(kind, content)))
-    throw mesh_files::Unreadable_file(path + ": not what the step \"" + std::string(kind) +
-                                      "\" of this program has left here, or no more; remove it, and the step is done again");
+    throw mesh_files::Unreadable_file(
+        path + ": not what the step \"" + std::string(kind) +
+        "\" of this program has left here, or no more; remove it, and the step is done again");
   Step_reader reader(content, path);
   (reader(values), ...);
 }

@@ -256,8 +256,8 @@ class Tile_steps {
     RW::Tile_regions regions;
     const auto fragments = RW::fragments_of_tile(
         read_shape(plan, tile), tile, plan, read<RW::Tile_clusters>("clusters", tile), read<RW::Tile_seeds>("seeds"),
-        read_neighbours<RW::Tile_border>("border", plan, tile), read_neighbours<RW::Tile_network>("network", plan, tile),
-        read<RW::Tile_walk>("walk"), regions);
+        read_neighbours<RW::Tile_border>("border", plan, tile),
+        read_neighbours<RW::Tile_network>("network", plan, tile), read<RW::Tile_walk>("walk"), regions);
     write_step(path_of_tile("fragments", tile), "fragments", fragments);
     write_step(path_of_tile("regions", tile), "regions", regions);
   }
@@ -349,11 +349,16 @@ class Tile_steps {
     const auto plan = read<RW::Tile_plan>("plan");
     const auto walk = read<RW::Tile_walk>("walk");
     const auto seeds = read<RW::Tile_seeds>("seeds");
-    Json report = {{"tiles", tasks_.size()},      {"faces", plan.faces},
-                   {"components", walk.components}, {"clusters", walk.clusters},
-                   {"seeds", seeds.seeds.size()}, {"fragments", all.of_fragment.size()},
-                   {"turned_sides", seeds.turned_sides}, {"segments", Json::array()},
-                   {"failed", failures()},        {"version", version()}};
+    Json report = {{"tiles", tasks_.size()},
+                   {"faces", plan.faces},
+                   {"components", walk.components},
+                   {"clusters", walk.clusters},
+                   {"seeds", seeds.seeds.size()},
+                   {"fragments", all.of_fragment.size()},
+                   {"turned_sides", seeds.turned_sides},
+                   {"segments", Json::array()},
+                   {"failed", failures()},
+                   {"version", version()}};
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
           {{"label", s}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});

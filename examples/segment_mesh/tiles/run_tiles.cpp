@@ -127,7 +127,8 @@ Exit_code do_all_steps(const Tile_steps& steps, const Options& options, Json& re
 Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& report) {
   for (Task& tile : tiles) tile.files.report.clear();  // there is one for all tiles
   if (!options.tile_step.empty() && options.tile_folder.empty())
-    throw CLI::ValidationError("--tile-step", "it finds what other steps have left in a folder: give --tile-folder, too");
+    throw CLI::ValidationError("--tile-step",
+                               "it finds what other steps have left in a folder: give --tile-folder, too");
   const Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
   folder.claim(steps.parameters());

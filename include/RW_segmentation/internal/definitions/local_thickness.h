@@ -159,8 +159,7 @@ RW_SEGMENTATION_INLINE std::vector<double> probe_exits(const Dual_mesh& part, st
   std::vector<double> exits;
   exits.reserve(probes.size() * sampling.rays);
   for (const Thickness_probe& probe : probes)
-    cone.for_each_exit(tree, probe.origin, probe.axis, probe.face,
-                       [&](double distance) { exits.push_back(distance); });
+    cone.for_each_exit(tree, probe.origin, probe.axis, probe.face, [&](double distance) { exits.push_back(distance); });
   return exits;
 }
 

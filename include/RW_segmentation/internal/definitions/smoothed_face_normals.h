@@ -92,8 +92,7 @@ inline Dual_mesh with_smoothed_vertices(const Dual_mesh& mesh) {
 inline std::vector<Eigen::Vector3d> widened(const Dual_mesh& mesh, const Normal_smoothing& smoothing,
                                             Diffused_normals normals, const Progress& progress) {
   const double widening = widening_by_turn(normals.turn, smoothing);
-  if (widening > 1)
-    normals = diffused_normals(mesh, widening * smoothing.radius, std::move(normals.vector), progress);
+  if (widening > 1) normals = diffused_normals(mesh, widening * smoothing.radius, std::move(normals.vector), progress);
   progress(1);
   return std::move(normals.unit);
 }

@@ -69,8 +69,7 @@ inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const st
   const Dual_mesh& mesh = shape.mesh;
   Tile_regions result;
   std::map<Index, Learned_cost::Region> regions;
-  for (Index f = 0; f < shape.own_faces; ++f)
-    cost.join(regions[static_cast<Index>(fragment[f])], cost.region(mesh, f));
+  for (Index f = 0; f < shape.own_faces; ++f) cost.join(regions[static_cast<Index>(fragment[f])], cost.region(mesh, f));
   for (const auto& [number_of_fragment, region] : regions) {
     result.fragments.push_back(number_of_fragment);
     result.regions.push_back(region);
@@ -178,8 +177,8 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile
   std::vector<Tile_shape> shapes;
   std::vector<Tile_outline> outlines(count);
   for (std::size_t t = 0; t < count; ++t)
-    shapes.push_back(shape_of_tile(tiles[t], t, plan, of_neighbours(borders, t), noise, outlines[t], options,
-                                   part(0.3, 0.6, t)));
+    shapes.push_back(
+        shape_of_tile(tiles[t], t, plan, of_neighbours(borders, t), noise, outlines[t], options, part(0.3, 0.6, t)));
   const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options, progress.part(0.6, 0.65));
   std::vector<Tile_clusters> clusters;
   std::vector<Tile_network> networks(count);

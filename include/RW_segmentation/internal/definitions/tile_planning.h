@@ -122,7 +122,8 @@ class Border_matching {
     for (std::size_t v = 0; v < points_.size(); ++v) {
       const auto cell = cell_of(points_[v]);
       for (int around = 0; around < 27; ++around) {
-        const auto found = cells.find({cell[0] + around % 3 - 1, cell[1] + around / 3 % 3 - 1, cell[2] + around / 9 - 1});
+        const auto found =
+            cells.find({cell[0] + around % 3 - 1, cell[1] + around / 3 % 3 - 1, cell[2] + around / 9 - 1});
         if (found == cells.end()) continue;
         for (const Index other : found->second)
           if ((points_[other] - points_[v]).norm() <= tolerance) unite(static_cast<Index>(v), other);
@@ -190,7 +191,8 @@ inline void share_vertices(const std::vector<Tile_survey>& surveys, Border_match
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmentation& options) {
+RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys,
+                                            const Tiled_segmentation& options) {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     throw internal::argument_error("tolerance", options.tolerance, "a finite number >= 0");
   Tile_plan plan;

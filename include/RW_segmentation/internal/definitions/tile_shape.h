@@ -41,8 +41,11 @@ RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners cor
   Joined_faces joined(corners, points.size());
   if (turned_sides) *turned_sides = joined.turned_sides;
   const std::size_t faces = corners.number_of_faces();
-  return Dual_mesh({Dual_graph(faces, std::move(joined.sides)), std::move(corners), std::move(joined.ends),
-                    std::move(points), {}},
+  return Dual_mesh({Dual_graph(faces, std::move(joined.sides)),
+                    std::move(corners),
+                    std::move(joined.ends),
+                    std::move(points),
+                    {}},
                    &plan.box)
       .as_part_of(plan.total_area);
 }
@@ -86,7 +89,8 @@ inline double width_of_border(const Tile_plan& plan, const Normal_smoothing& smo
 }
 
 /// The faces of a tile up to a distance from the vertices that it shares.
-inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared, Tile_border& border) {
+inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared,
+                        Tile_border& border) {
   using Index = Dual_mesh::Index;
   std::vector<Index> id(mesh.number_of_vertices(), Tile_border::none);
   for (const auto& [vertex, number] : shared) id[vertex] = number;
@@ -361,8 +365,7 @@ RW_SEGMENTATION_INLINE Tile_shape shape_of_tile(const Tile& tile, std::size_t nu
   shape.mesh = internal::shape_of_part(shape.mesh, options.smoothing, noise, progress.part(0, 0.8));
   const internal::Own_graph own(shape);
   outline.turns = internal::turn_sums(shape, own, number);
-  for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f)
-    outline.moment += shape.mesh.area(f) * shape.mesh.centroid(f);
+  for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f) outline.moment += shape.mesh.area(f) * shape.mesh.centroid(f);
   internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan.faces), outline);
   if (options.thickness.samples > 0)
     outline.probes = internal::thickness_probes(shape.mesh, shape.own_faces, options.thickness.samples,

@@ -44,7 +44,8 @@ inline Mean_concavity ordinary_concavity(const Tile_plan& plan, const std::vecto
   }
   const double mean = edges > 0 ? turn / edges : 0;
   if (edges == 0 || mean < flat_turn(plan.box.rounding, length / edges)) return {};
-  return {mean, Turn_histogram::mean(counts, [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; })};
+  return {mean,
+          Turn_histogram::mean(counts, [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; })};
 }
 
 /// The coarse graph of the whole, with the lengths of its edges.
@@ -92,9 +93,9 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
 
   const internal::Components components(graph, [](Index) { return true; });
   internal::Distances_to_sources distance(graph, std::move(lengths));
-  const std::vector<Index> nodes = internal::farthest_points(
-      distance, {internal::node_farthest_from_centroid(plan, outlines)},
-      std::min(options.seeds + components.count - 1, graph.number_of_faces()), progress);
+  const std::vector<Index> nodes =
+      internal::farthest_points(distance, {internal::node_farthest_from_centroid(plan, outlines)},
+                                std::min(options.seeds + components.count - 1, graph.number_of_faces()), progress);
   const internal::Joined_nodes numbers(outlines, [](const Tile_outline& outline) { return outline.faces.size(); });
   for (const Index node : nodes) {
     const auto [tile, place] = numbers.tile_and_place(node);
@@ -140,9 +141,10 @@ inline std::vector<Thickness_probe> probes_from(const Tile_seeds& seeds, std::si
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
-                                                      const Tile_border& border, const Tile_seeds& seeds,
-                                                      Tile_network& network, const Tiled_segmentation& options) {
+RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, std::size_t number,
+                                                      const Tile_plan& plan, const Tile_border& border,
+                                                      const Tile_seeds& seeds, Tile_network& network,
+                                                      const Tiled_segmentation& options) {
   internal::require_reduction_numbers(options.reduction);
   const internal::Own_graph own(shape);
   const std::vector<double> conductances = internal::conductances_of(shape.mesh, seeds.ordinary);
@@ -156,13 +158,13 @@ RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, s
   for (const auto& shared : shape.shared_edges) {
     const auto f = internal::own_face(shape, shared);
     const bool is_owner = number < shared.neighbour;
-    network.sides.push_back({shared.side, clusters.of_face[f], clusters.resistance[f],
-                             is_owner ? conductances[shared.edge] : 0, is_owner});
+    network.sides.push_back(
+        {shared.side, clusters.of_face[f], clusters.resistance[f], is_owner ? conductances[shared.edge] : 0, is_owner});
   }
   for (const auto face : border.faces) network.border.push_back(clusters.of_face[face]);
   if (!seeds.probes.empty())
-    network.exits = internal::probe_exits(shape.mesh, shape.own_faces, internal::probes_from(seeds, number),
-                                          options.thickness);
+    network.exits =
+        internal::probe_exits(shape.mesh, shape.own_faces, internal::probes_from(seeds, number), options.thickness);
   return clusters.of_face;
 }
 
@@ -193,7 +195,8 @@ inline Dual_graph network_of_tiles(const std::vector<Tile_network>& networks, co
       ways.push_back({{nodes(t, a), nodes(t, b)}, networks[t].conductances[e]});
     }
   nodes.for_each_side(networks, [&](const auto& owner, Dual_graph::Index a, const auto& other, Dual_graph::Index b) {
-    ways.push_back({{std::min(a, b), std::max(a, b)}, conductance_of_way(owner.from_node, owner.value, other.from_node)});
+    ways.push_back(
+        {{std::min(a, b), std::max(a, b)}, conductance_of_way(owner.from_node, owner.value, other.from_node)});
   });
   return parallel_ways(nodes.count(), std::move(ways), conductances);
 }
@@ -206,8 +209,8 @@ RW_SEGMENTATION_INLINE Tile_walk walk_over_tiles(const Tile_plan& plan, const Ti
   using Index = Dual_graph::Index;
   Tile_walk walk;
   walk.thickness = internal::thickness_at_probes(networks, seeds.probes.size(), options.thickness.rays);
-  const auto known =
-      static_cast<std::size_t>(std::count_if(walk.thickness.begin(), walk.thickness.end(), [](double t) { return t > 0; }));
+  const auto known = static_cast<std::size_t>(
+      std::count_if(walk.thickness.begin(), walk.thickness.end(), [](double t) { return t > 0; }));
   walk.is_solid = internal::is_solid(known, plan.faces);
 
   const internal::Joined_nodes nodes(networks, [](const Tile_network& network) { return network.clusters; });

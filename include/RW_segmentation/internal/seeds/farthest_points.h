@@ -29,8 +29,9 @@ Dual_graph::Index first_greatest(const Values& values) {
 /// Goes on from a first seed, which is no source yet, to each component that no source reaches, and then to the farthest
 /// face again and again, up to a count.
 /// \throws std::invalid_argument if that is less than the number of components, Cancelled
-inline std::vector<Dual_graph::Index> farthest_points(Distances_to_sources& distance, std::vector<Dual_graph::Index> seeds,
-                                                     std::size_t count, const Progress& progress) {
+inline std::vector<Dual_graph::Index> farthest_points(Distances_to_sources& distance,
+                                                      std::vector<Dual_graph::Index> seeds, std::size_t count,
+                                                      const Progress& progress) {
   for (const auto face : seeds) distance.add_source(face);
   const auto out_of_reach = reach_all_components(distance);
   seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());

@@ -102,8 +102,8 @@ struct Face_clusters {
   }
 
   /// Gives each face to a cluster. The first ones do not grow.
-  void flood(const Dual_graph& faces, const std::vector<double>& face_conductances,
-             const std::vector<char>& is_crossed, std::size_t number_alone) {
+  void flood(const Dual_graph& faces, const std::vector<double>& face_conductances, const std::vector<char>& is_crossed,
+             std::size_t number_alone) {
     of_face.assign(faces.number_of_faces(), none);
     resistance.assign(faces.number_of_faces(), 0.);
     std::vector<Index> reached = root;

@@ -1,0 +1,80 @@
+"""Segments tiles of one mesh with Dask: each step of each tile is a task, on this machine or on a cluster.
+
+    python segment_tiles.py WORK_FOLDER OUTPUT_FOLDER TILE ... [--scheduler ADDRESS] [--workers N] [--options "..."]
+
+All workers must see the folders and find `segment_mesh`. A task whose worker is lost is done again by another one; run
+again, the program does what is left. Needs dask.distributed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import subprocess
+from pathlib import Path
+
+from distributed import Client, LocalCluster, progress, wait
+
+# Each step of the tool, whether it is done tile by tile, and the file that it leaves at its end.
+STEPS = (
+    ("survey", True, "survey"),
+    ("plan", False, "plan"),
+    ("border", True, "noise"),
+    ("noise", False, "noise_of_all"),
+    ("shape", True, "outline"),
+    ("seeds", False, "seeds"),
+    ("clusters", True, "network"),
+    ("walk", False, "walk"),
+    ("fragments", True, "regions"),
+    ("merge", False, "segments"),
+    ("labels", True, "labels"),
+    ("report", False, "report"),
+)
+
+
+def run_step(command: list[str], step: str, tile: int | None) -> None:
+    """Run one step of the tool; raise RuntimeError with its message if it fails."""
+    of_tile = [] if tile is None else ["--tile", str(tile)]
+    result = subprocess.run([*command, "--tile-step", step, *of_tile], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        message = result.stderr.strip()
+        where = "" if tile is None else f" of tile {tile}"
+        raise RuntimeError(f"step {step}{where}: exit code {result.returncode}: {message}")
+
+
+def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options: list[str]) -> None:
+    """Run all steps that have not left their files yet, one after the other, each on all tiles at the same time."""
+    work.mkdir(parents=True, exist_ok=True)
+    outputs.mkdir(parents=True, exist_ok=True)
+    tile_list = work / "tiles.txt"
+    tile_list.write_text("".join(f"{tile}\n" for tile in tiles))
+    command = ["segment_mesh", "--quiet", "--tiled", "--list", str(tile_list)]
+    command += ["--tile-folder", str(work), "--labels", f"{outputs}/%.seg", *options]
+    for step, is_of_each_tile, file in STEPS:
+        places: list[int | None] = list(range(len(tiles))) if is_of_each_tile else [None]
+        left = [place for place in places if not (work / (file if place is None else f"{file}_{place}")).exists()]
+        tasks = [client.submit(run_step, command, step, place, pure=False, retries=2) for place in left]
+        progress(tasks)
+        wait(tasks)
+        client.gather(tasks)  # raises what a task has raised
+
+
+def main() -> None:
+    """Read the command line and do the work."""
+    parser = argparse.ArgumentParser(description="Segments tiles of one mesh with Dask.")
+    parser.add_argument("work", type=Path, help="folder for what steps leave")
+    parser.add_argument("outputs", type=Path, help="folder for the labels")
+    parser.add_argument("tiles", nargs="+", help="mesh files")
+    parser.add_argument("--scheduler", help="address of a Dask scheduler; without it one is started here")
+    parser.add_argument("--workers", type=int, help="processes of the one that is started here")
+    parser.add_argument("--options", default="", help="options of segment_mesh, such as --segments 12")
+    arguments = parser.parse_args()
+    cluster = arguments.scheduler or LocalCluster(
+        n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None
+    )
+    with Client(cluster) as client:
+        segment(client, arguments.work, arguments.outputs, arguments.tiles, shlex.split(arguments.options))
+
+
+if __name__ == "__main__":
+    main()

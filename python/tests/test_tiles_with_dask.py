@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""The recipe that segments tiles of one mesh with Dask gives the labels of the tool, also when a worker is killed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from readers import reader
+
+distributed = reader("distributed")
+
+RECIPE = Path(__file__).parents[2] / "examples/collections/segment_tiles.py"
+
+
+@pytest.fixture
+def tiles(data: Path) -> list[str]:
+    """Give two meshes that touch each other nowhere, as tiles."""
+    return [str(data / "hand.off"), str(data / "tripod.off")]
+
+
+@pytest.fixture
+def expected(tool: Path, tiles: list[str], tmp_path: Path) -> dict[str, str]:
+    """Give the labels of the tool by itself, by tile."""
+    folder = tmp_path / "expected"
+    folder.mkdir()
+    subprocess.run([tool, *tiles, "--tiled", "--quiet", "--labels", f"{folder}/%.seg"], check=True)
+    return contents(folder)
+
+
+def contents(folder: Path) -> dict[str, str]:
+    return {path.name: path.read_text() for path in folder.glob("*.seg")}
+
+
+def environment(tool: Path) -> dict[str, str]:
+    return {**os.environ, "PATH": f"{tool.parent}:{os.environ['PATH']}"}
+
+
+def command(tmp_path: Path, tiles: list[str]) -> list[str]:
+    return [sys.executable, str(RECIPE), str(tmp_path / "work"), str(tmp_path / "labels"), *tiles]
+
+
+def test_labels_are_those_of_the_tool(tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path) -> None:
+    subprocess.run([*command(tmp_path, tiles), "--workers", "2"], env=environment(tool), check=True)
+    assert contents(tmp_path / "labels") == expected
+
+
+def test_a_killed_worker_changes_nothing(
+    tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", environment(tool)["PATH"])
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        subprocess.Popen([*command(tmp_path, tiles), "--scheduler", cluster.scheduler_address]) as recipe,
+    ):
+        while not (tmp_path / "work/plan").exists() and recipe.poll() is None:
+            time.sleep(0.01)
+        for worker in list(client.run(os.getpid).values())[:1]:
+            os.kill(worker, signal.SIGKILL)
+        assert recipe.wait() == 0
+    assert contents(tmp_path / "labels") == expected
+
+
+def test_a_step_that_fails_is_told(tool: Path, tiles: list[str], tmp_path: Path) -> None:
+    result = subprocess.run(
+        [*command(tmp_path, tiles), "--workers", "1", "--options", "--segments 1"],
+        env=environment(tool),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode != 0
+    assert "step merge: exit code 3: segment_mesh:" in result.stderr
