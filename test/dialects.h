@@ -423,7 +423,7 @@ inline void add_vtp(std::vector<Dialect>& all) {
   add(
       "volumes", [=](const Soup& s) { return replaced(text(s), "PolyData", "UnstructuredGrid"); }, "UnstructuredGrid");
   add(
-      "cut", [=](const Soup& s) { return text(s).substr(0, text(s).size() / 2); }, "the file ends");
+      "cut", [=](const Soup& s) { return text(s).substr(0, text(s).find("</PolyData>")); }, "the file ends");
   add(
       "no_faces",
       [=](const Soup& s) {
