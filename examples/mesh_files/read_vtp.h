@@ -175,7 +175,8 @@ class Reader {
     }
   }
 
-  /// \param section the name of the tag around them, \param add_corner called with the number of each corner, \param end_cell after the last one of each cell
+  /// \param section the name of the tag around them
+  /// \param add_corner called with the number of each corner, \param end_cell after the last one of each cell
   template <class Add_corner, class End_cell>
   void read_cells(const Piece& piece, const Cells& cells, const std::string& section, const Add_corner& add_corner,
                   const End_cell& end_cell) {
