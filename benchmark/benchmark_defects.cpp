@@ -249,7 +249,8 @@ int main(int argc, char** argv) try {
   CLI::App app(
       "Runs the tool segment_mesh on meshes with defects, in all its modes. Right is an answer for every face, or a "
       "refusal that names the file and its cause and leaves no file behind. A crash, too much time or memory, or "
-      "anything else is wrong. Then the same meshes in dialects of OFF, OBJ, PLY and STL: right is the same geometry, "
+      "anything else is wrong. Then the same meshes in dialects of OFF, OBJ, PLY, STL and VTP: right is the same "
+      "geometry, "
       "or for "
       "files that are no meshes a refusal that calls them by their name.");
   app.add_option("TOOL", arguments.tool, "The path of segment_mesh")->required()->check(CLI::ExistingFile);

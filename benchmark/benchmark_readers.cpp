@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// How rightly, how fast and with how much memory the readers of mesh_files.h, CGAL and Assimp read OFF, PLY, OBJ and STL.
+// How rightly, how fast and with how much memory the readers of mesh_files.h, CGAL and Assimp read OFF, PLY, OBJ, STL and VTP.
 // benchmark/readers_of_python.py does the same for readers of Python, with the files that this program writes.
 
 #include "../examples/mesh_files.h"
@@ -137,7 +137,13 @@ std::vector<std::pair<std::string, std::string>> liars() {
           {"text/mesh.ply", "ply\nformat ascii 1.0" + ply + "0 0 0\n"},
           {"bytes/mesh.ply", "ply\nformat binary_little_endian 1.0" + ply + std::string(120, '\0')},
           {"mesh.stl", std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(100, '\0')},
-          {"mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2000000000\n"}};
+          {"mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2000000000\n"},
+          {"mesh.vtp",
+           "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"2000000000\" "
+           "NumberOfPolys=\"2000000000\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+           "format=\"ascii\">0 0 0</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
+           "format=\"ascii\">0</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1</DataArray>"
+           "</Polys></Piece></PolyData></VTKFile>"}};
 }
 
 void write(const std::filesystem::path& path, const std::string& content) {
@@ -158,7 +164,8 @@ void write_files(const std::filesystem::path& folder, const defects::Soup& small
   const std::vector<std::pair<const char*, std::string>> files = {{"mesh.off", dialects::off(large)},
                                                                   {"mesh.ply", dialects::binary_ply(large)},
                                                                   {"mesh.obj", dialects::obj(large)},
-                                                                  {"mesh.stl", dialects::binary_stl(large)}};
+                                                                  {"mesh.stl", dialects::binary_stl(large)},
+                                                                  {"mesh.vtp", dialects::appended_vtp(large)}};
   for (const auto& [name, content] : files) write(folder / "large" / name, content);
   for (const auto& [name, content] : liars()) write(folder / "liars" / name, content);
 }
@@ -229,7 +236,8 @@ int main(int argc, char** argv) try {
   std::size_t rows = 1000;
   bool lists_faults = false;
   CLI::App app(
-      "Reads files of OFF, PLY, OBJ and STL by several readers: dialects of a small mesh, large files, and small files "
+      "Reads files of OFF, PLY, OBJ, STL and VTP by several readers: dialects of a small mesh, large files, and small "
+      "files "
       "that promise billions of elements. Right are all triangles of a dialect, or refusing what is no mesh.");
   app.add_option("FOLDER", folder, "The files are written here, and stay for readers_of_python.py")->required();
   app.add_option("--rows", rows, "The large mesh has 2 * rows * rows faces")->capture_default_str();
@@ -241,7 +249,7 @@ int main(int argc, char** argv) try {
   std::vector<Result> results;
   for (const Reader& reader : readers) results.push_back(dialect_result(reader, folder, small, lists_faults));
   for (const Reader& reader : readers) {
-    for (const char* file : {"mesh.off", "mesh.ply", "mesh.obj", "mesh.stl"})
+    for (const char* file : {"mesh.off", "mesh.ply", "mesh.obj", "mesh.stl", "mesh.vtp"})
       results.push_back(file_result(reader, folder, "large", file, large.faces.size()));
     for (const auto& [file, content] : liars()) results.push_back(file_result(reader, folder, "liars", file, 0));
   }

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads the files that benchmark_readers wrote by meshio and trimesh: the same table for readers of Python.
+"""Reads the files that benchmark_readers wrote by meshio, trimesh and PyVista: the same table for readers of Python.
+
+PyVista reads VTP, OBJ, PLY and STL by VTK, and OFF by meshio.
 
 Usage: readers_of_python.py FOLDER [--faults]
-Needs NumPy, meshio and trimesh: pip install meshio trimesh
+Needs NumPy, meshio, trimesh and PyVista: pip install meshio trimesh pyvista
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ from typing import Any
 
 import meshio
 import numpy as np
+import pyvista
 import trimesh
 
 SECONDS = 60  # of processor time for a file
@@ -44,7 +47,18 @@ def read_by_trimesh(path: Path) -> Triangles:
     return np.float32(mesh.triangles).reshape(-1, 9)
 
 
-READERS: dict[str, Callable[[Path], Triangles]] = {"meshio": read_by_meshio, "trimesh": read_by_trimesh}
+def read_by_pyvista(path: Path) -> Triangles:
+    """Give the triangles of a file, one a row."""
+    mesh = pyvista.read(path)
+    mesh = (mesh if isinstance(mesh, pyvista.PolyData) else mesh.extract_surface()).triangulate()
+    return np.float32(mesh.points[mesh.regular_faces]).reshape(-1, 9)
+
+
+READERS: dict[str, Callable[[Path], Triangles]] = {
+    "meshio": read_by_meshio,
+    "trimesh": read_by_trimesh,
+    "pyvista": read_by_pyvista,
+}
 
 
 def in_order(triangles: Triangles) -> Triangles:

@@ -3,8 +3,8 @@
 #ifndef MESH_FILES_H
 #define MESH_FILES_H
 
-// Meshes in files: OFF, PLY, OBJ, STL, Gmsh and Medit in; these, glTF, 3MF, Gmsh, Medit and VTP with segments, labels and columns of
-// numbers out.
+// Meshes in files: OFF, PLY, OBJ, STL, Gmsh, Medit and VTP in; these, glTF and 3MF with segments, labels and columns of numbers
+// out.
 //
 // Reading is strict and says where a file is wrong; it allocates no more than a few times the size of the file,
 // whatever the header promises. Writing leaves a whole file or none.

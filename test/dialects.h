@@ -7,6 +7,7 @@
 // but are none. They are written by code of their own, which knows nothing of what reads them.
 
 #include "defects.h"
+#include "vtp_files.h"
 
 #ifdef RW_SEGMENTATION_WITH_ZLIB
 #include <zlib.h>
@@ -389,6 +390,48 @@ inline void add_stl(std::vector<Dialect>& all) {
   all.push_back({"stl.no_name_of_file", "mesh", [](const Soup& s) { return binary_stl(s, "solid"); }, ""});
 }
 
+/// As VTK itself likes it best, without compression.
+inline std::string appended_vtp(const Soup& soup) {
+  vtp_files::Form form;
+  form.data = vtp_files::Data::appended;
+  return vtp_files::file(soup.points, soup.faces, form);
+}
+
+inline void add_vtp(std::vector<Dialect>& all) {
+  const auto add = [&](const std::string& name, const Content& content, const std::string& refusal = "") {
+    all.push_back({"vtp." + name, "mesh.vtp", content, refusal});
+  };
+  const auto written = [](const vtp_files::Form& form) {
+    return [form](const Soup& s) { return vtp_files::file(s.points, s.faces, form); };
+  };
+  for (const vtp_files::Form& form : vtp_files::all_forms()) add(form.name(), written(form));
+  vtp_files::Form form;
+  const Content text = written(form);
+  add("byte_order_mark", [=](const Soup& s) { return "\xef\xbb\xbf" + text(s); });
+  add("windows_lines", [=](const Soup& s) { return replaced(text(s), "\n", "\r\n"); });
+  add("one_line", [=](const Soup& s) { return replaced(text(s), "\n", " "); });
+  add("number_a_line", [=](const Soup& s) { return replaced(replaced(text(s), " 0 ", "\n0\n"), " 1 ", "\n1\n"); });
+  form.data = vtp_files::Data::base64;
+  form.pieces = 2;
+  add("pieces", written(form));
+  form.packing = vtp_files::Packing::stored;
+  const Content blocks = written(form);
+  add(
+      "lz4", [=](const Soup& s) { return replaced(blocks(s), "vtkZLib", "vtkLZ4"); }, "vtkLZ4DataCompressor");
+  add(
+      "parallel", [=](const Soup& s) { return replaced(text(s), "PolyData", "PPolyData"); }, "the pieces of a mesh");
+  add(
+      "volumes", [=](const Soup& s) { return replaced(text(s), "PolyData", "UnstructuredGrid"); }, "UnstructuredGrid");
+  add(
+      "cut", [=](const Soup& s) { return text(s).substr(0, text(s).find("</PolyData>")); }, "the file ends");
+  add(
+      "no_faces",
+      [=](const Soup& s) {
+        return text({s.points, {}});
+      },
+      "no faces");
+}
+
 inline void add_packed([[maybe_unused]] std::vector<Dialect>& all) {
 #ifdef RW_SEGMENTATION_WITH_ZLIB
   const std::vector<std::pair<std::string, Content>> formats = {
@@ -428,6 +471,7 @@ inline std::vector<Dialect> all() {
   add_obj(dialects);
   add_ply(dialects);
   add_stl(dialects);
+  add_vtp(dialects);
   add_packed(dialects);
   add_without_faces(dialects);
   return dialects;

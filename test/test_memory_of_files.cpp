@@ -119,6 +119,21 @@ TEST(Memory_of_files, IsAMultipleOfTheFileWhateverItPromises) {
       {"faces.mesh", "MeshVersionFormatted 2 Dimension 3 Triangles " + std::to_string(n) + repeated(" 1 1 1 0", n)},
       {"billions.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 4000000000 " + std::string(n, ' ')},
       {"billions.meshb", std::string("\1\0\0\0\2\0\0\0\4\0\0\0\0\0\0\0\xff\xff\xff\x7f", 20) + std::string(n, '\0')},
+      {"points.vtp", "<VTKFile type='PolyData'><Piece NumberOfPoints='" + std::to_string(n) +
+                         "'><Points><DataArray NumberOfComponents='3'>" + repeated("0 0 0 ", n) +
+                         "</DataArray></Points></Piece></VTKFile>"},
+      {"polygons.vtp", "<VTKFile type='PolyData'><Piece NumberOfPolys='" + std::to_string(n) +
+                           "'><Polys><DataArray Name='connectivity'/><DataArray Name='offsets'>" + repeated("0 ", n) +
+                           "</DataArray></Polys></Piece></VTKFile>"},
+      {"empty_pieces.vtp", "<VTKFile type='PolyData'>" + repeated("<Piece/>", n) + "</VTKFile>"},
+      {"pieces.vtp", "<VTKFile type='PolyData'>" + repeated("<Piece NumberOfPolys='1'/>", n) + "</VTKFile>"},
+      {"attributes.vtp", "<VTKFile type='PolyData'><a " + repeated("b='' ", n) + "/></VTKFile>"},
+      {"billions.vtp",
+       "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'><Piece NumberOfPoints='4000000000'><Points>"
+       "<DataArray type='Float32' NumberOfComponents='3' format='appended' offset='0'/></Points></Piece>"
+       "<AppendedData encoding='raw'>_" +
+           std::string("\1\0\0\0\xff\xff\xff\xff\0\0\0\0\xff\xff\1\0\x78\1", 18) + std::string(n, '\0') +
+           "</AppendedData></VTKFile>"},
       {"billions_of_corners.off", "OFF\n1 1 0\n0 0 0\n4000000000" + repeated(" 0", n) + "\n"}};
   for (const auto& [name, content] : files) EXPECT_LT(bytes_for_each(name, content), 40) << name;
 }

@@ -253,7 +253,7 @@ TEST(Mesh_dialects, OffInAnyLayout) {
 TEST(Mesh_dialects, ObjIsKnownByItsFirstWordWhereNoNameTells) {
   expect_tetrahedron({"no_extension", "# by hand\n" + obj});
   EXPECT_EQ(mesh_files::mesh_of_content("-", "usemap x\n" + obj, mesh_files::Format::obj).points.size(), 4U);
-  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ, STL, Gmsh or Medit file");
+  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file");
 }
 
 TEST(Mesh_dialects, GmshAndMeditInAllTheirForms) {

@@ -3,6 +3,7 @@
 #ifndef MESH_FILES_OUTPUT_FILE_H
 #define MESH_FILES_OUTPUT_FILE_H
 
+#include "Output.h"
 #include "Partial_files.h"
 #include "Polygon_soup.h"
 #include "Text.h"
@@ -34,7 +35,7 @@ inline std::optional<int> open_file_of(const std::string& path) {
 /// A file that appears whole or not at all: it is written under a temporary name in its own folder and gets its name
 /// by `commit()`. Without that, nothing remains. What is there and no file, such as a pipe or a device, is written to as
 /// it is, and so are files that are open already, such as /dev/stdout; a link stays a link.
-class Output_file {
+class Output_file final : public Output {
  public:
   /// \throws Unwritable_file if the file cannot be created
   explicit Output_file(std::string path) : path_(std::move(path)) {
@@ -59,19 +60,16 @@ class Output_file {
     entry_ = Partial_files::add(temporary_path_);
   }
 
-  Output_file(const Output_file&) = delete;
-  Output_file& operator=(const Output_file&) = delete;
-
-  ~Output_file() {
+  ~Output_file() override {
     if (file_) std::fclose(file_);
     if (!temporary_path_.empty()) std::remove(temporary_path_.c_str());
     if (entry_) Partial_files::forget(entry_);
   }
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const override { return path_; }
 
   /// \throws Unwritable_file if the disk is full, for example
-  void write(std::string_view bytes) {
+  void write(std::string_view bytes) override {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
   }
 

@@ -12,6 +12,7 @@
 #include "read_off.h"
 #include "read_ply.h"
 #include "read_stl.h"
+#include "read_vtp.h"
 
 #include <algorithm>
 #include <array>
@@ -34,16 +35,17 @@ inline std::string extension_of(const std::string& path) {
 }
 
 /// The formats that are read.
-enum class Format { off, ply, obj, stl, msh, medit };
+enum class Format { off, ply, obj, stl, msh, medit, vtp };
 
 /// What files of a format end with, without the dot.
-inline const std::array<std::pair<const char*, Format>, 7> format_names = {{{"off", Format::off},
+inline const std::array<std::pair<const char*, Format>, 8> format_names = {{{"off", Format::off},
                                                                             {"ply", Format::ply},
                                                                             {"obj", Format::obj},
                                                                             {"stl", Format::stl},
                                                                             {"msh", Format::msh},
                                                                             {"mesh", Format::medit},
-                                                                            {"meshb", Format::medit}}};
+                                                                            {"meshb", Format::medit},
+                                                                            {"vtp", Format::vtp}}};
 
 /// The format that a path names, before ".gz" if that is there.
 inline std::optional<Format> format_of_path(const std::string& path) {
@@ -58,6 +60,7 @@ inline std::optional<Format> format_of_path(const std::string& path) {
 inline std::optional<Format> format_of_content(std::string_view content) {
   for (const auto order : {Numbers::Order::little, Numbers::Order::big})
     if (medit::is_binary(content, order)) return Format::medit;
+  if (vtp::is_vtk_file(content)) return Format::vtp;
   Text text("", content.substr(0, 1 << 16));
   if (!text.next_line()) return std::nullopt;
   const std::string_view word = text.word();
@@ -93,7 +96,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   const std::optional<Format> marked = format_of_content(content);
   std::optional<Format> format = given ? given : marked ? marked : format_of_path(path);
   if (!format && may_be_obj(content)) format = Format::obj;
-  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ, STL, Gmsh or Medit file");
+  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file");
   switch (*format) {
     case Format::off:
       return read_off(path, content);
@@ -105,6 +108,8 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
       return read_msh(path, content);
     case Format::medit:
       return read_medit(path, content);
+    case Format::vtp:
+      return read_vtp(path, content);
     case Format::ply:
       break;
   }
@@ -112,8 +117,8 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   return read_ply(path, content);
 }
 
-/// The mesh in an OFF, PLY, OBJ, STL, Gmsh or Medit file, which may be packed by gzip. The content decides which it is; the extension
-/// does where the content has no mark of its own, as in OBJ files. Byte order marks and blanks at the beginning are
+/// The mesh in an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file, which may be packed by gzip. The content decides which it
+/// is; the extension does where the content has no mark of its own, as in OBJ files. Byte order marks and blanks at the beginning are
 /// passed over.
 /// \param path for the extension and messages; nothing is read from there
 /// \param format in place of the one that the path names
@@ -129,7 +134,7 @@ inline Polygon_soup mesh_of_content(const std::string& path, const std::string& 
   return soup;
 }
 
-/// Reads an OFF, PLY, OBJ, STL, Gmsh or Medit file, or standard input for "-", see `mesh_of_content()`.
+/// Reads an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file, or standard input for "-", see `mesh_of_content()`.
 /// \throws Unreadable_file if there is no such file, too
 inline Polygon_soup read_mesh(const std::string& path, const std::optional<Format>& format = std::nullopt) {
   return mesh_of_content(path, read_content(path), format);

@@ -4,6 +4,7 @@
 #define MESH_FILES_READ_PLY_H
 
 #include "Polygon_soup.h"
+#include "Strips.h"
 #include "Text.h"
 
 #include <boost/endian/conversion.hpp>
@@ -252,42 +253,6 @@ std::uint64_t whole_number(double value, const Values& values, const char* what)
     values.fail(std::string(what) + " is " + std::to_string(value));
   return static_cast<std::uint64_t>(value);
 }
-
-/// Strips of triangles: each corner after the second makes a triangle with the two before it.
-class Strips {
- public:
-  void add(Polygon_soup::Index corner) { corners_.push_back(corner); }
-  void end_strip() { add(end); }
-
-  /// Adds the triangles, in the order of the strips. Those with a corner twice only lead on to the next ones.
-  void append_to(Polygon_soup& soup) const {
-    std::size_t triangles = 0;
-    for_each_triangle([&](auto, auto, auto) { ++triangles; });
-    soup.corners.reserve(soup.corners.size() + 3 * triangles);
-    soup.first_corner.reserve(soup.first_corner.size() + triangles);
-    for_each_triangle([&](Polygon_soup::Index a, Polygon_soup::Index b, Polygon_soup::Index c) {
-      soup.corners.insert(soup.corners.end(), {a, b, c});
-      soup.end_face();
-    });
-  }
-
- private:
-  static constexpr Polygon_soup::Index end = std::numeric_limits<Polygon_soup::Index>::max();
-
-  template <class Function>
-  void for_each_triangle(const Function& function) const {
-    std::size_t begin = 0;  // of the strip
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      if (corners_[i] == end) begin = i + 1;
-      if (i < begin + 2) continue;
-      const bool is_turned = (i - begin) % 2 == 1;
-      const auto a = corners_[i - 2 + is_turned], b = corners_[i - 1 - is_turned], c = corners_[i];
-      if (a != b && b != c && c != a) function(a, b, c);
-    }
-  }
-
-  std::vector<Polygon_soup::Index> corners_;  // of all strips, with `end` after each
-};
 
 /// The number of a vertex that a face has for a corner.
 template <class Values>

@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_3MF_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 #include "write_zip.h"
@@ -26,7 +26,7 @@ inline std::string hexadecimal(const Color& color) {
 
 /// Writes a 3MF file for slicers: an object and a base material `segment_<label>` for each label, in millimetres. Polygons
 /// are cut into triangles.
-inline void write_3mf(Output_file& file, const Segmented_soup& mesh) {
+inline void write_3mf(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const auto segments = faces_of_labels(triangles.label);
   std::string model;

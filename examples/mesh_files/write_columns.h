@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_COLUMNS_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 
 #include <cstddef>
 #include <string>
@@ -13,7 +13,7 @@
 namespace mesh_files {
 
 /// Writes one label a line, as in the files `.seg` of the Princeton Segmentation Benchmark.
-inline void write_labels(Output_file& file, const std::vector<std::size_t>& labels) {
+inline void write_labels(Output& file, const std::vector<std::size_t>& labels) {
   Buffer out(file);
   for (const std::size_t label : labels) {
     out.number(label);
@@ -23,7 +23,7 @@ inline void write_labels(Output_file& file, const std::vector<std::size_t>& labe
 }
 
 /// Writes one line a face with one number a column, under a line of the columns' names that starts with `#`.
-inline void write_columns(Output_file& file, const std::vector<std::string>& names,
+inline void write_columns(Output& file, const std::vector<std::string>& names,
                           const std::vector<std::vector<double>>& columns) {
   Buffer out(file);
   out << "#";

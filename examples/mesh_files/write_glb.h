@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_GLB_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 #include "write_stl.h"
@@ -29,7 +29,7 @@ inline double linear_light(std::uint8_t channel) {
 
 /// Writes a binary glTF 2.0 file: a mesh with a primitive and a material `segment_<label>` for each label, with "label"
 /// among the extras of the primitive. All share the points, which are single precision; polygons are cut into triangles.
-inline void write_glb(Output_file& file, const Segmented_soup& mesh) {
+inline void write_glb(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const auto& points = triangles.soup.points;
   const auto segments = faces_of_labels(triangles.label);

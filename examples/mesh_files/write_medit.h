@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_MEDIT_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 
@@ -20,7 +20,7 @@ namespace mesh_files {
 
 /// Writes a Medit file as text, for mmg and others: the label is the reference of each triangle, and the edges between
 /// segments are ridges, which remeshers keep. They are not required edges, with which meshio reads no file. Polygons are cut into triangles.
-inline void write_medit(Output_file& file, const Segmented_soup& mesh) {
+inline void write_medit(Output& file, const Segmented_soup& mesh) {
   using Index = Polygon_soup::Index;
   const Small_faces triangles = small_faces(mesh, 3);
   std::vector<std::tuple<Index, Index, std::size_t>> sides;  // lower and higher corner, label

@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_MSH_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 
@@ -21,7 +21,7 @@ namespace mesh_files {
 /// Writes a Gmsh file, version 4.1, as text: a surface and a physical group for each label, both with the tag label + 1,
 /// since Gmsh counts from 1; the group is called `segment_<label>`. Polygons are cut into triangles, from which alone Gmsh
 /// makes a geometry. Nodes have the numbers of the points, from 1; those between segments belong to the lowest label.
-inline void write_msh(Output_file& file, const Segmented_soup& mesh) {
+inline void write_msh(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const auto& points = triangles.soup.points;
   const auto segments = faces_of_labels(triangles.label);

@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_NPZ_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "write_zip.h"
 
 #include <cstddef>
@@ -38,7 +38,7 @@ inline std::string npy_of(const std::vector<std::size_t>& labels) {
 }
 
 /// Writes labels as an archive of NumPy's with one array, "labels".
-inline void write_labels_npz(Output_file& file, const std::vector<std::size_t>& labels) {
+inline void write_labels_npz(Output& file, const std::vector<std::size_t>& labels) {
   Zip_archive archive(file);
   archive.add("labels.npy", npy_of(labels));
   archive.finish();
@@ -46,7 +46,7 @@ inline void write_labels_npz(Output_file& file, const std::vector<std::size_t>& 
 
 /// Writes probabilities as an archive of NumPy's with two arrays: "probabilities", a row for each face, and "labels", those
 /// of the columns.
-inline void write_probabilities_npz(Output_file& file, const std::vector<std::size_t>& labels,
+inline void write_probabilities_npz(Output& file, const std::vector<std::size_t>& labels,
                                     const std::vector<std::vector<double>>& columns) {
   const std::size_t rows = columns.empty() ? 0 : columns.front().size();
   std::string bytes = npy_header("<f8", "(" + std::to_string(rows) + ", " + std::to_string(columns.size()) + ")");
@@ -61,7 +61,7 @@ inline void write_probabilities_npz(Output_file& file, const std::vector<std::si
 }
 
 /// Writes labels as CSV: two columns, "face" from 0 and "label".
-inline void write_labels_csv(Output_file& file, const std::vector<std::size_t>& labels) {
+inline void write_labels_csv(Output& file, const std::vector<std::size_t>& labels) {
   Buffer out(file);
   out << "face,label\n";
   for (std::size_t f = 0; f < labels.size(); ++f) {
@@ -74,7 +74,7 @@ inline void write_labels_csv(Output_file& file, const std::vector<std::size_t>& 
 }
 
 /// Writes probabilities as CSV: a column "face" from 0 and one for each label, by its name.
-inline void write_probabilities_csv(Output_file& file, const std::vector<std::size_t>& labels,
+inline void write_probabilities_csv(Output& file, const std::vector<std::size_t>& labels,
                                     const std::vector<std::vector<double>>& columns) {
   Buffer out(file);
   out << "face";

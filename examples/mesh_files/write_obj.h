@@ -5,7 +5,7 @@
 
 #include "Buffer.h"
 #include "Colors.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace mesh_files {
 /// Writes a Wavefront OBJ file: a group and a material `segment_<label>` for each label, and the colours of points
 /// behind their coordinates. Faces come segment by segment, in their order within each.
 /// \param material_library name of the file with the materials
-inline void write_obj(Output_file& file, const std::string& material_library, const Polygon_soup& soup,
-                      const Colors& colors, const std::vector<std::size_t>& face_labels) {
+inline void write_obj(Output& file, const std::string& material_library, const Polygon_soup& soup, const Colors& colors,
+                      const std::vector<std::size_t>& face_labels) {
   std::vector<std::size_t> faces(soup.number_of_faces());
   std::iota(faces.begin(), faces.end(), std::size_t(0));
   std::stable_sort(faces.begin(), faces.end(),
@@ -57,7 +57,7 @@ inline void write_obj(Output_file& file, const std::string& material_library, co
 }
 
 /// Writes the materials of an OBJ file: `segment_<label>` for each label.
-inline void write_materials(Output_file& file, const std::map<std::size_t, Color>& color_of_label) {
+inline void write_materials(Output& file, const std::map<std::size_t, Color>& color_of_label) {
   Buffer out(file);
   for (const auto& [label, color] : color_of_label) {
     out << "newmtl segment_" << std::to_string(label) << "\nKd";

@@ -5,7 +5,7 @@
 
 #include "Buffer.h"
 #include "Colors.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace mesh_files {
 
 /// Writes a text OFF file, or COFF where points have colours.
-inline void write_off(Output_file& file, const Polygon_soup& soup, const Colors& colors) {
+inline void write_off(Output& file, const Polygon_soup& soup, const Colors& colors) {
   Buffer out(file);
   out << (colors.of_points.empty() ? "OFF\n" : "COFF\n");
   out.number(soup.points.size());

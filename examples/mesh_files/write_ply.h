@@ -5,7 +5,7 @@
 
 #include "Buffer.h"
 #include "Colors.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ inline void write_ply(Buffer& out, const Polygon_soup& soup, const Colors& color
   out.flush();
 }
 
-inline void write_ply(Output_file& file, const Polygon_soup& soup, const Colors& colors,
+inline void write_ply(Output& file, const Polygon_soup& soup, const Colors& colors,
                       const std::vector<std::size_t>& face_labels) {
   Buffer out(file);
   write_ply(out, soup, colors, face_labels);

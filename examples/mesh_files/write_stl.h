@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_STL_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 
@@ -50,7 +50,7 @@ inline std::array<double, 3> unit_normal(const Polygon_soup::Point& a, const Pol
 /// Writes a binary STL file. The two bytes after each facet hold its colour as most programs read it: five bits each of
 /// blue, green and red from the lowest on, and the highest bit for that there is one. Facets are in the order of the
 /// faces, which are cut into triangles.
-inline void write_binary_stl(Output_file& file, const Segmented_soup& mesh) {
+inline void write_binary_stl(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const std::size_t facets = triangles.label.size();
   if (facets > std::numeric_limits<std::uint32_t>::max())
@@ -76,7 +76,7 @@ inline void write_binary_stl(Output_file& file, const Segmented_soup& mesh) {
 }
 
 /// Writes an STL file as text: a solid `segment_<label>` for each label, one after the other.
-inline void write_text_stl(Output_file& file, const Segmented_soup& mesh) {
+inline void write_text_stl(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const auto& points = triangles.soup.points;
   Buffer out(file);

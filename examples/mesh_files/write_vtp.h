@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_VTP_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
 
@@ -16,7 +16,7 @@ namespace mesh_files {
 
 /// Writes a VTK file of polygons (VTP) with two arrays of cell data, the labels ("segment") and the colours ("color").
 /// Polygons stay as they are.
-inline void write_vtp(Output_file& file, const Segmented_soup& mesh) {
+inline void write_vtp(Output& file, const Segmented_soup& mesh) {
   const Polygon_soup& soup = mesh.soup;
   const std::size_t points = soup.points.size(), faces = soup.number_of_faces();
   Buffer out(file);

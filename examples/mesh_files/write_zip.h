@@ -4,7 +4,7 @@
 #define MESH_FILES_WRITE_ZIP_H
 
 #include "Buffer.h"
-#include "Output_file.h"
+#include "Output.h"
 
 #include <boost/crc.hpp>
 
@@ -20,7 +20,7 @@ namespace mesh_files {
 /// Writes a ZIP archive, whose files are stored as they are. Every archive of the same files is the same to the byte.
 class Zip_archive {
  public:
-  explicit Zip_archive(Output_file& file) : path_(file.path()), out_(file) {}
+  explicit Zip_archive(Output& file) : path_(file.path()), out_(file) {}
 
   /// \throws Unwritable_file if the archive becomes larger than 4 GiB
   void add(const std::string& name, std::string_view content) {

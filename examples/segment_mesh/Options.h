@@ -42,15 +42,8 @@ inline bool has_placeholder(std::string pattern) {
   return pattern.find('%') != std::string::npos || pattern.find("{folder}") != std::string::npos;
 }
 
-/// The formats of meshes that are written.
-enum class Output_format { ply, off, obj, stl, text_stl, glb, three_mf, msh, medit, vtp };
-
-/// What files of a format end with, without the dot; the last one is a choice of `--output-format` only.
-inline const Names<Output_format> output_format_names = {
-    {"ply", Output_format::ply},          {"off", Output_format::off},    {"obj", Output_format::obj},
-    {"stl", Output_format::stl},          {"glb", Output_format::glb},    {"3mf", Output_format::three_mf},
-    {"msh", Output_format::msh},          {"mesh", Output_format::medit}, {"vtp", Output_format::vtp},
-    {"stl-text", Output_format::text_stl}};
+using mesh_files::Output_format;
+using mesh_files::output_format_names;
 
 /// The files that belong to a mesh. Those not asked for are empty.
 struct Files {

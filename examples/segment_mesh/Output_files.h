@@ -150,46 +150,9 @@ class Output_files {
   }
 
   void write_mesh(mesh_files::Output_file& file, Output_format format, const mesh_files::Segmented_soup& mesh) const {
-    switch (format) {
-      case Output_format::stl:
-        return mesh_files::write_binary_stl(file, mesh);
-      case Output_format::text_stl:
-        return mesh_files::write_text_stl(file, mesh);
-      case Output_format::glb:
-        return mesh_files::write_glb(file, mesh);
-      case Output_format::three_mf:
-        return mesh_files::write_3mf(file, mesh);
-      case Output_format::msh:
-        return mesh_files::write_msh(file, mesh);
-      case Output_format::medit:
-        return mesh_files::write_medit(file, mesh);
-      case Output_format::vtp:
-        return mesh_files::write_vtp(file, mesh);
-      case Output_format::ply:
-      case Output_format::off:
-      case Output_format::obj:
-        return write_colors_of_faces_or_points(file, format, mesh);
-    }
-  }
-
-  void write_colors_of_faces_or_points(mesh_files::Output_file& file, Output_format format,
-                                       const mesh_files::Segmented_soup& mesh) const {
-    std::vector<mesh_files::Color> face_colors;
-    face_colors.reserve(mesh.face_labels.size());
-    for (const std::size_t label : mesh.face_labels) face_colors.push_back(mesh.color_of_label.at(label));
-    const mesh_files::Polygon_soup apart = options_.has_point_colors
-                                               ? mesh_files::with_points_apart(mesh.soup, mesh.face_labels)
-                                               : mesh_files::Polygon_soup();
-    const mesh_files::Polygon_soup& written = options_.has_point_colors ? apart : mesh.soup;
-    const mesh_files::Colors colors = options_.has_point_colors ? mesh_files::colors_of_points(written, face_colors)
-                                                                : mesh_files::colors_of_faces(face_colors);
-    if (format == Output_format::ply)
-      mesh_files::write_ply(file, written, colors, mesh.face_labels);
-    else if (format == Output_format::off)
-      mesh_files::write_off(file, written, colors);
-    else
-      mesh_files::write_obj(file, std::filesystem::path(material_library_of(file.path())).filename().string(), written,
-                            colors, mesh.face_labels);
+    mesh_files::write_segments(
+        file, format, mesh,
+        {options_.has_point_colors, std::filesystem::path(material_library_of(file.path())).filename().string()});
   }
 
   void write_probabilities(const std::vector<Mesh::Face_index>& faces, const Segmentation& result) {
@@ -205,11 +168,7 @@ class Output_files {
   }
 
   void write_labels(const std::vector<std::size_t>& labels) {
-    mesh_files::Output_file& out = file(files_.labels);
-    const std::string extension = mesh_files::extension_of(files_.labels);
-    if (extension == ".npz") return mesh_files::write_labels_npz(out, labels);
-    if (extension == ".csv") return mesh_files::write_labels_csv(out, labels);
-    mesh_files::write_labels(out, labels);
+    mesh_files::write_labels_as(mesh_files::extension_of(files_.labels), file(files_.labels), labels);
   }
 
   void write_parts(const Mesh_with_labels& parts, const std::vector<Segment>& segments) {

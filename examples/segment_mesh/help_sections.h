@@ -52,10 +52,10 @@ constexpr std::array<Help_section, 8> help_sections = {{
 #endif
      false},
     {"Input",
-     "OFF, PLY, OBJ, STL, Gmsh (.msh) and Medit (.mesh, .meshb), packed by gzip or not; where the program is built\n"
-     "with Assimp, also glTF, GLB, 3MF, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all meshes of their\n"
-     "scenes. The first bytes tell which, and where they do not, the name or --format. A file without faces is\n"
-     "refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
+     "OFF, PLY, OBJ, STL, Gmsh (.msh), Medit (.mesh, .meshb) and VTK's polygons (.vtp), packed by gzip or not; where\n"
+     "the program is built with Assimp, also glTF, GLB, 3MF, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all\n"
+     "meshes of their scenes. The first bytes tell which, and where they do not, the name or --format. A file without\n"
+     "faces is refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
      false},
     {"Several meshes",
      "They are worked through one after the other, and one that fails does not end the work. In the paths of outputs\n"

@@ -14,7 +14,7 @@ import pytest
 
 from readers import reader
 
-gmsh, meshio, trimesh = map(reader, ["gmsh", "meshio", "trimesh"])
+gmsh, meshio, pyvista, trimesh, vtk = map(reader, ["gmsh", "meshio", "pyvista", "trimesh", "vtk"])
 
 
 def read_by_tool(tool: Path, mesh: Path) -> tuple[Any, dict[str, Any]]:
@@ -71,6 +71,59 @@ def test_all_that_gmsh_and_meshio_write_is_the_same_solid(gmsh_files: Path, tool
         remarks = "".join(report["repairs"])
         assert ("elements of volume" in remarks) == path.name.startswith("volumes")
         assert ("curved faces" in remarks) == path.name.startswith("curved")
+
+
+def vtk_file(mesh: Any, path: Path, change: dict[str, Any]) -> None:
+    """Let VTK write a mesh, by a writer that some methods have been called of."""
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetInputData(mesh)
+    writer.SetFileName(str(path))
+    for method, value in change.items():
+        getattr(writer, method)(*([] if value is None else [value]))
+    assert writer.Write() == 1
+
+
+DATA = {
+    "text": {"SetDataModeToAscii": None},
+    "base64": {"SetDataModeToBinary": None},
+    "appended": {"SetDataModeToAppended": None, "EncodeAppendedDataOff": None},
+    "appended_base64": {"SetDataModeToAppended": None, "EncodeAppendedDataOn": None},
+}
+NUMBERS = {
+    "little": {"SetByteOrderToLittleEndian": None, "SetHeaderTypeToUInt32": None},
+    "big": {"SetByteOrderToBigEndian": None, "SetHeaderTypeToUInt64": None},
+}
+PACKING = {"plain": {"SetCompressorTypeToNone": None}, "zlib": {"SetCompressorTypeToZLib": None}}
+
+
+@pytest.mark.parametrize("packing", PACKING)
+@pytest.mark.parametrize("numbers", NUMBERS)
+@pytest.mark.parametrize("data", DATA)
+def test_vtk_writes_what_the_tool_reads(data: str, numbers: str, packing: str, tool: Path, tmp_path: Path) -> None:
+    ball = pyvista.Sphere(theta_resolution=40, phi_resolution=40).points_to_double()
+    block = pyvista.Box((4, 7, 4, 6, 4, 5), level=5, quads=True).clean().points_to_double()
+    strips = pyvista.Cylinder(center=(-9, 0, 0), resolution=20).triangulate().strip()
+    change = DATA[data] | NUMBERS[numbers] | PACKING[packing] | {"SetBlockSize": 2048}
+    for name, mesh in {"ball": ball, "block": block, "strips": strips}.items():
+        path = tmp_path / f"{name}.vtp"
+        vtk_file(mesh, path, change)
+        read, report = read_by_tool(tool, path)
+        expected = pyvista.read(path).triangulate()
+        assert report["faces"] == (expected.n_cells if name == "strips" else mesh.n_cells)
+        np.testing.assert_allclose(read.area, expected.area, rtol=1e-6)
+        np.testing.assert_allclose(read.volume, expected.volume, rtol=1e-5)
+        np.testing.assert_allclose(read.bounds.T.reshape(-1), expected.bounds, atol=1e-6)
+
+
+@pytest.mark.parametrize(("method", "cause"), [("SetCompressorTypeToLZ4", "LZ4"), ("SetCompressorTypeToLZMA", "LZMA")])
+def test_other_compressions_of_vtk_are_refused_by_their_names(
+    method: str, cause: str, tool: Path, tmp_path: Path
+) -> None:
+    vtk_file(pyvista.Sphere(), tmp_path / "ball.vtp", {method: None})
+    refusal = subprocess.run([str(tool), "ball.vtp"], cwd=tmp_path, capture_output=True, text=True)
+    assert refusal.returncode == 2
+    assert f"vtk{cause}DataCompressor" in refusal.stderr
+    assert refusal.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("extension", ["glb", "gltf", "3mf"])

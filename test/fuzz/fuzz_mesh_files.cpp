@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     const auto read = [&]() -> mesh_files::Polygon_soup {
-      switch (data[0] % 7) {
+      switch (data[0] % 8) {
         case 0:
           return mesh_files::read_off("file", content);
         case 1:
@@ -30,6 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           return mesh_files::read_msh("file", content);
         case 6:
           return mesh_files::read_medit("file", content);
+        case 7:
+          return mesh_files::read_vtp("file", content);
         default:  // packed or not, and whatever it begins with
           return mesh_files::mesh_of_content("file", std::string(content));
       }

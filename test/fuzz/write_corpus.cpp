@@ -10,6 +10,7 @@
 #include "../gmsh_and_medit_files.h"
 #include "../mesh_bytes.h"
 #include "../meshes.h"
+#include "../vtp_files.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -93,6 +94,8 @@ int main(int argc, char** argv) {
       for (const auto& [name, content] :
            gmsh_and_medit_files::all(mesh_bytes::tetrahedron_points, mesh_bytes::tetrahedron_faces))
         add((name.find(".msh") != std::string::npos ? "\5" : "\6") + content);
+      for (const vtp_files::Form& form : vtp_files::all_forms())
+        add("\7" + vtp_files::file(mesh_bytes::tetrahedron_points, mesh_bytes::tetrahedron_faces, form));
     } else {
       for (unsigned seed = 0; seed < 100; ++seed) add(random_bytes(seed));
     }

@@ -3,7 +3,9 @@
 #ifndef BROWSER_ENGINE_SESSION_H
 #define BROWSER_ENGINE_SESSION_H
 
+#include "../../mesh_files/Output.h"
 #include "../../mesh_files/Polygon_soup.h"
+#include "../../mesh_files/write_mesh.h"
 #include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
 
@@ -21,9 +23,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,6 +60,18 @@ struct Levels {
 struct Polylines {
   std::vector<float> points;          ///< three coordinates each; a closed curve repeats its first point
   std::vector<std::uint32_t> starts;  ///< the first point of each curve, and the end of the last
+};
+
+/// A file that is kept as its bytes.
+class Kept_file final : public mesh_files::Output {
+ public:
+  explicit Kept_file(std::string name) : name_(std::move(name)) {}
+  const std::string& path() const override { return name_; }
+  void write(std::string_view bytes) override { bytes_ += bytes; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string name_, bytes_;
 };
 
 /// A mesh, its seeds and the walk on it, as a page edits them. Faces are named by their numbers in the mesh.
@@ -167,10 +183,34 @@ class Session {
     return lines;
   }
 
+  /// Writes the mesh with its segments, or of these alone what a format has of them, as the tool segment_mesh does.
+  /// \param format one of the names of `--output-format`; "mtl", the materials of an OBJ file; or for the labels alone "seg",
+  ///   "csv" or "npz"
+  /// \param materials the name of the file with the materials of an OBJ file
+  void write(const std::string& format, const std::string& materials, const std::vector<std::size_t>& labels,
+             const std::map<std::size_t, mesh_files::Color>& color_of_label, Kept_file& file) const {
+    if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
+    if (format == "mtl") return mesh_files::write_materials(file, color_of_label);
+    if (format == "seg" || format == "csv" || format == "npz")
+      return mesh_files::write_labels_as("." + format, file, labels);
+    const mesh_files::Output_format chosen = segment_mesh::choice_of(mesh_files::output_format_names, format);
+    mesh_files::write_segments(file, chosen, {soup(), labels, color_of_label}, {false, materials});
+  }
+
  private:
   using Walk = RW_segmentation::Random_walk<Mesh>;
 
   const Mesh& mesh() const { return input_.mesh; }
+
+  mesh_files::Polygon_soup soup() const {
+    mesh_files::Polygon_soup soup;
+    for (const auto v : mesh().vertices()) soup.points.push_back(mesh().point(v));
+    for (const auto f : mesh().faces()) {
+      for (const auto v : mesh().vertices_around_face(mesh().halfedge(f))) soup.corners.push_back(v);
+      soup.end_face();
+    }
+    return soup;
+  }
 
   /// \param stop the level that the shape suggests
   Levels levels_of(const RW_segmentation::Segment_hierarchy<Mesh>& hierarchy,

@@ -12,7 +12,9 @@
 #include <emscripten/val.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -134,6 +136,22 @@ class Engine {
     });
   }
 
+  /// \param colors four numbers for each label: itself, red, green and blue
+  val file(const std::string& format, const std::string& name, const std::string& materials, val labels, val colors) {
+    return answer([&] {
+      const auto numbers = emscripten::convertJSArrayToNumberVector<Label>(labels),
+                 rows = emscripten::convertJSArrayToNumberVector<Label>(colors);
+      std::map<std::size_t, mesh_files::Color> color_of_label;
+      for (std::size_t i = 0; i + 3 < rows.size(); i += 4)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          color_of_label[rows[i]][channel] = static_cast<std::uint8_t>(rows[i + 1 + channel]);
+      browser_engine::Kept_file file(name);
+      session_.write(format, materials, {numbers.begin(), numbers.end()}, color_of_label, file);
+      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(file.bytes().data());
+      return val(emscripten::typed_memory_view(file.bytes().size(), bytes)).call<val>("slice");
+    });
+  }
+
  private:
   Session session_;
 };
@@ -170,5 +188,6 @@ EMSCRIPTEN_BINDINGS(engine) {
       .function("anticipate", &Engine::anticipate)
       .function("probabilities", &Engine::probabilities)
       .function("hierarchy", &Engine::hierarchy)
-      .function("smoothBoundaries", &Engine::smooth_boundaries);
+      .function("smoothBoundaries", &Engine::smooth_boundaries)
+      .function("file", &Engine::file);
 }

@@ -8,7 +8,7 @@ export function save(fileName: string, content: BlobPart): void {
   setTimeout(() => URL.revokeObjectURL(url), 60_000); // some browsers read it later
 }
 
-/** The name of a file without its ending. */
+/** The name of a file without its ending, before .gz if that is there. */
 export function stem(fileName: string): string {
-  return fileName.replace(/\.[^.]*$/, '') || 'mesh';
+  return fileName.replace(/\.gz$/i, '').replace(/\.[^.]*$/, '') || 'mesh';
 }

@@ -1,4 +1,5 @@
 import { batch, computed, effect, signal } from '@preact/signals-core';
+import { unpacked } from '../files/unpacked';
 import { defaultParameters, type LoadedMesh, type MeshSource, type WalkParameters } from '../worker/calls';
 import { Cancelled, EngineClient } from '../worker/EngineClient';
 import type { Curves } from '../worker/EngineModule';
@@ -116,7 +117,7 @@ export class Session {
   }
 
   openFile(file: File): Promise<boolean> {
-    return this.open(file.name, async () => ({ fileName: file.name, bytes: new Uint8Array(await file.arrayBuffer()) }));
+    return this.open(file.name, async () => ({ fileName: file.name, bytes: await unpacked(file) }));
   }
 
   openModel(model: string): Promise<boolean> {

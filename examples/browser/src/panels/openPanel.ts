@@ -1,4 +1,5 @@
 import { effect } from '@preact/signals-core';
+import { openedEndings } from '../files/formats';
 import { readSeeds } from '../files/seeds';
 import { modelName, type Session } from '../model/Session';
 import { byId, element, onClick } from './dom';
@@ -6,6 +7,7 @@ import { byId, element, onClick } from './dom';
 /** Opens meshes and seeds: from a dialogue, dropped on the page, or built in. */
 export function openPanel(session: Session): void {
   const input = byId<HTMLInputElement>('file');
+  input.accept = openedEndings.join();
   onClick('open', () => input.click());
   onClick('load-seeds', () => input.click());
   input.addEventListener('change', () => {

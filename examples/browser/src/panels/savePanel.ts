@@ -1,40 +1,26 @@
 import { effect } from '@preact/signals-core';
-import { materialsFile, objFile } from '../files/obj';
-import { plyFile } from '../files/ply';
+import { labelFormats, meshFormats, type SavedFormat } from '../files/formats';
 import { save, stem } from '../files/save';
 import { seedsFile } from '../files/seeds';
-import { segFile } from '../files/seg';
 import type { Session } from '../model/Session';
 import type { Viewer } from '../view/Viewer';
-import { byId, onClick } from './dom';
+import type { FileFormat } from '../worker/EngineModule';
+import { byId, element, onClick } from './dom';
 
 /** Files of what has been made. */
 export function savePanel(session: Session, viewer: Viewer): void {
   const name = () => stem(session.name.peek());
 
-  /** Does something with a mesh and its segments, if there are any. */
-  const withSegments = (action: (result: NonNullable<ReturnType<typeof resultOf>>) => void) => () => {
-    const result = resultOf(session);
-    if (result) action(result);
-  };
-  onClick(
-    'save-ply',
-    withSegments(({ mesh, segmentOfFace, colors }) =>
-      save(`${name()}_segments.ply`, plyFile(mesh, segmentOfFace, colors) as BlobPart),
-    ),
-  );
-  onClick(
-    'save-obj',
-    withSegments(({ mesh, segmentOfFace, colors }) => {
-      const materials = `${name()}_segments.mtl`;
-      save(`${name()}_segments.obj`, objFile(mesh, segmentOfFace, materials));
-      save(materials, materialsFile(colors));
-    }),
-  );
-  onClick(
-    'save-seg',
-    withSegments(({ segmentOfFace }) => save(`${name()}.seg`, segFile(segmentOfFace))),
-  );
+  const formats = byId<HTMLSelectElement>('save-format');
+  for (const [label, group] of [
+    ['Mesh with segments', meshFormats],
+    ['Segment of each face', labelFormats],
+  ] as const)
+    formats.append(element('optgroup', { label }, ...group.map(optionOf)));
+  onClick('save-segments', () => {
+    const chosen = [...meshFormats, ...labelFormats].find(({ format }) => format === formats.value)!;
+    saveSegments(session, name(), chosen).catch((error) => session.report(error));
+  });
   onClick('save-picture', () => {
     viewer.picture().then(
       (picture) => save(`${name()}.png`, picture),
@@ -49,15 +35,25 @@ export function savePanel(session: Session, viewer: Viewer): void {
   effect(() => {
     const enable = (id: string, isPossible: boolean) => (byId<HTMLButtonElement>(id).disabled = !isPossible);
     const hasMesh = session.mesh.value !== null;
-    for (const id of ['save-ply', 'save-obj', 'save-seg']) enable(id, session.segments.value.length > 0);
+    enable('save-segments', session.segments.value.length > 0);
     for (const id of ['save-picture', 'load-seeds']) enable(id, hasMesh);
     enable('save-seeds', hasMesh && session.seeds.annotation.value.seeds.size > 0);
   });
 }
 
-function resultOf(session: Session) {
-  const mesh = session.mesh.peek();
-  const segmentOfFace = session.segmentOfFace.peek();
-  const colors = new Map(session.segments.peek().map(({ label, color }) => [label, color]));
-  return mesh && segmentOfFace && { mesh, segmentOfFace, colors };
+function optionOf({ format, title }: SavedFormat): HTMLOptionElement {
+  return element('option', { value: format, textContent: title });
+}
+
+/** Saves the segments that are shown, if there are any; OBJ files with another one that has their materials. */
+async function saveSegments(session: Session, mesh: string, { format, ending }: SavedFormat): Promise<void> {
+  const labels = session.segmentOfFace.peek();
+  if (!labels) return;
+  const colors = Uint32Array.from(session.segments.peek().flatMap(({ label, color }) => [label, ...color]));
+  const materials = `${mesh}_segments.mtl`;
+  const write = (format: FileFormat, name: string) => session.engine.file(format, name, materials, labels, colors);
+  const fileName = mesh + ending;
+  const [file, library] = await Promise.all([write(format, fileName), format === 'obj' && write('mtl', materials)]);
+  save(fileName, file as BlobPart);
+  if (library) save(materials, library as BlobPart);
 }

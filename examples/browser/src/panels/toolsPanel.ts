@@ -34,7 +34,7 @@ export function toggleBoundaries({ appearance }: Session): void {
 }
 
 function hint({ mesh, mode, tool, seeds }: Session): string {
-  if (!mesh.value) return 'Drop an OFF, PLY, OBJ or STL file here, or choose a model';
+  if (!mesh.value) return 'Drop a mesh here, or choose a model';
   if (mode.value !== 'seeds') return '';
   const name = seeds.labels.value.find((label) => label.id === seeds.currentLabel.value)?.name ?? '';
   const hints: Record<Tool, string> = {

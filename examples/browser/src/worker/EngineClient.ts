@@ -72,6 +72,10 @@ export class EngineClient {
     return this.callOnMesh('smoothBoundaries', [labels]);
   }
 
+  file(...values: Parameters<Calls['file']>): Promise<Uint8Array> {
+    return this.callOnMesh('file', values);
+  }
+
   /** Ends all computations: their promises are rejected with `Cancelled`. */
   cancel(): void {
     this.restart(new Cancelled());

@@ -1,6 +1,6 @@
 /** The interface of the package's headers as WebAssembly, see `engine/`. All calls are synchronous. */
 export interface EngineModule {
-  /** The file name decides the format: .off, .ply, .obj, .stl. */
+  /** The first bytes tell the format, or the name: .off, .ply, .obj, .stl, .msh, .mesh, .meshb, .vtp. */
   readMesh(bytes: Uint8Array, fileName: string): Engine | Failure;
   /** Names of the models that can be generated. */
   models(): string[];
@@ -24,6 +24,20 @@ export interface Engine {
   /** @param progress told the part done, in [0, 1]; false cancels */
   hierarchy(method: AutomaticMethod, progress: (fraction: number) => boolean): Hierarchy | Failure;
   smoothBoundaries(labels: Uint32Array): Curves | Failure;
+  /**
+   * A file of the mesh with its segments, or of the labels alone, as the tool segment_mesh writes it.
+   *
+   * @param name names the file in errors
+   * @param materials name of the file with the materials of an OBJ file
+   * @param colors four numbers for each label: itself, red, green and blue
+   */
+  file(
+    format: FileFormat,
+    name: string,
+    materials: string,
+    labels: Uint32Array,
+    colors: Uint32Array,
+  ): Uint8Array | Failure;
   /** Frees the memory. */
   delete(): void;
 }
@@ -31,6 +45,12 @@ export interface Engine {
 export interface Failure {
   error: string;
 }
+
+/** Formats of meshes by the names of `--output-format`, materials of OBJ files, and formats of labels. */
+export type FileFormat =
+  | ('ply' | 'obj' | 'off' | 'stl' | 'stl-text' | 'glb' | '3mf' | 'msh' | 'mesh' | 'vtp')
+  | 'mtl'
+  | ('seg' | 'csv' | 'npz');
 
 export interface MeshData {
   /** Three coordinates a vertex. */

@@ -1,5 +1,5 @@
 import type { Seeds } from '../model/seeds';
-import type { AutomaticMethod, Curves, Hierarchy, MeshData, Policies } from './EngineModule';
+import type { AutomaticMethod, Curves, FileFormat, Hierarchy, MeshData, Policies } from './EngineModule';
 
 /** Where a mesh comes from. */
 export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: string };
@@ -39,6 +39,7 @@ export interface Calls {
   probabilities(seeds: Seeds, label: number): Float32Array;
   hierarchy(method: AutomaticMethod): TimedHierarchy;
   smoothBoundaries(labels: Uint32Array): Curves;
+  file(format: FileFormat, name: string, materials: string, labels: Uint32Array, colors: Uint32Array): Uint8Array;
 }
 
 export type Request = {

@@ -92,6 +92,7 @@ function calls(tell: (progress: number) => void) {
     },
     hierarchy: (method) => hierarchy(method, tell),
     smoothBoundaries: (labels) => value(loaded().smoothBoundaries(labels)),
+    file: (...values) => value(loaded().file(...values)),
   } satisfies { [Name in keyof Calls]: (...values: Parameters<Calls[Name]>) => unknown };
 }
 

@@ -1,4 +1,6 @@
-import { cube, offFile } from '../meshes';
+import { gzipSync } from 'node:zlib';
+import { labelFormats, meshFormats } from '../../src/files/formats';
+import { cube, offFile, triangulated } from '../meshes';
 import { expect, test } from './fixture';
 
 const n = 6;
@@ -13,7 +15,7 @@ test.beforeEach(async ({ segmentation }) => {
 test('PLY files have the segments and colours, and can be opened', async ({ segmentation }) => {
   const labels = await segmentation.labels();
   const color = await segmentation.colorOf(middleOf(5));
-  const { name, content } = await segmentation.saved('#save-ply');
+  const { name, content } = await segmentation.savedAs('ply');
   expect(name).toBe('cube_segments.ply');
   const faces = facesOfPly(content);
   expect(faces.map((face) => face.segment)).toEqual(labels);
@@ -50,7 +52,7 @@ test('OBJ files have a group for each segment and come with their materials', as
   const labels = (await segmentation.labels()) ?? [];
   const downloads: string[] = [];
   page.on('download', (download) => downloads.push(download.suggestedFilename()));
-  const { name, content } = await segmentation.saved('#save-obj');
+  const { name, content } = await segmentation.savedAs('obj');
   await expect.poll(() => downloads).toEqual(['cube_segments.obj', 'cube_segments.mtl']);
   const facesOfGroups = new Map<string, number>();
   let group = '';
@@ -66,9 +68,53 @@ test('OBJ files have a group for each segment and come with their materials', as
 });
 
 test('SEG files have the label of each face', async ({ segmentation }) => {
-  const { name, content } = await segmentation.saved('#save-seg');
+  const { name, content } = await segmentation.savedAs('seg');
   expect(name).toBe('cube.seg');
   expect(content.toString().trim().split('\n').map(Number)).toEqual(await segmentation.labels());
+});
+
+test('every format is offered, and those that the page does not open are saved', async ({ segmentation }) => {
+  const all = [...meshFormats, ...labelFormats];
+  const offered = await segmentation.page
+    .locator('#save-format option')
+    .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value));
+  expect(offered).toEqual(all.map(({ format }) => format));
+  // The others are saved by tests of their own.
+  for (const { format, ending } of all.filter(({ format }) => ['glb', '3mf', 'csv', 'npz'].includes(format))) {
+    const { name, content } = await segmentation.savedAs(format);
+    expect(name).toBe(`cube${ending}`);
+    expect(content.length, format).toBeGreaterThan(100);
+  }
+  await expect(segmentation.page.getByRole('alert')).toBeHidden();
+  await segmentation.screenshot('formats');
+});
+
+for (const { format } of meshFormats.filter(({ format }) => !['glb', '3mf'].includes(format)))
+  test(`a mesh saved as ${format} is opened again, packed by gzip or not`, async ({ segmentation }) => {
+    const { page } = segmentation;
+    const hasTriangles = ['stl', 'stl-text', 'msh', 'mesh'].includes(format);
+    const { name, content } = await segmentation.savedAs(format);
+    for (const [fileName, bytes] of [
+      [name, content],
+      [`again_${name}.gz`, gzipSync(content)],
+    ] as const) {
+      await segmentation.open(fileName, bytes);
+      await expect(page.locator('#mesh-name')).toHaveText(fileName);
+      const faces = hasTriangles && format !== 'msh' ? triangulated(mesh).faces : mesh.faces;
+      const found = await page.evaluate(() => window.segmentationPage.faces());
+      expect([faces.length, triangulated(mesh).faces.length]).toContain(found);
+    }
+  });
+
+test('a packed mesh that is cut off is refused, and what is saved of it has no .gz', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const packed = gzipSync(offFile(mesh.points, mesh.faces));
+  await segmentation.open('cut.off.gz', packed.subarray(0, packed.length / 2));
+  await expect(page.getByRole('alert')).toContainText('The gzip file is broken or cut off.');
+  await segmentation.open('whole.off.gz', packed);
+  await expect(page.locator('#mesh-name')).toHaveText('whole.off.gz');
+  await segmentation.seed(middleOf(3), middleOf(5));
+  expect((await segmentation.savedAs('vtp')).name).toBe('whole_segments.vtp');
 });
 
 test('seeds are saved and loaded again, with names and colours, as an edit', async ({ segmentation }) => {

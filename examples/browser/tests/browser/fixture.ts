@@ -103,6 +103,12 @@ export class SegmentationTester {
     return { name: file.suggestedFilename(), content: readFileSync(await file.path()) };
   }
 
+  /** What is saved of the segments in a format. */
+  async savedAs(format: string): Promise<{ name: string; content: Buffer }> {
+    await this.page.selectOption('#save-format', format);
+    return this.saved('#save-segments');
+  }
+
   /** Keeps a picture of the page to look at. */
   async screenshot(name: string): Promise<void> {
     await this.page.screenshot({ path: `${build}screenshots/${name}.png` });

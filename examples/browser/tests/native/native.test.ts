@@ -5,7 +5,9 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { defaultPolicies } from '../../src/worker/calls';
 import type { AutomaticMethod, Engine, MeshData } from '../../src/worker/EngineModule';
-import { answer, engineModule, expect, pageFile, test } from '../browser/fixture';
+import { labelFormats, meshFormats } from '../../src/files/formats';
+import { answer, engineModule, engineWith, expect, pageFile, test } from '../browser/fixture';
+import { cube, offFile } from '../meshes';
 import { segmentsAtLevel } from '../../src/model/mergeTree';
 
 // What the page's engine and the tool segment_mesh, the same headers compiled natively, make of the same files.
@@ -76,6 +78,29 @@ for (const [model, choices, options] of [
     segmentNatively(...options, '--labels', 'labels.seg');
     expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
   });
+
+test('every file is byte for byte what the tool writes', async () => {
+  const { points, faces } = cube(6);
+  const off = offFile(points, faces);
+  writeFileSync(join(folder, 'mesh.off'), off);
+  const seeds = ['--seed', '20=3', '--seed', '120=0', '--seed', '200=7'];
+  segmentNatively(...seeds, '--labels', 'mesh.seg', '--report', 'report.json');
+  const labels = Uint32Array.from(labelsIn('mesh.seg'));
+  const report = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8')) as {
+    segments: { label: number; color: number[] }[];
+  };
+  const colors = Uint32Array.from(report.segments.flatMap(({ label, color }) => [label, ...color]));
+  const engine = await engineWith('mesh.off', off);
+  const formats = [...meshFormats, ...labelFormats].map(({ format }) => format);
+  for (const format of [...formats, 'mtl'] as const) {
+    const name = format === 'stl-text' ? 'text.stl' : `out.${format}`;
+    if (labelFormats.some((other) => other.format === format)) segmentNatively(...seeds, '--labels', name);
+    else if (format === 'stl-text') segmentNatively(...seeds, '-o', name, '--output-format', format);
+    else if (format !== 'mtl') segmentNatively(...seeds, '-o', name); // that of OBJ comes with materials
+    const written = Buffer.from(answer(engine.file(format, name, 'out.mtl', labels, colors)));
+    expect(written.equals(readFileSync(join(folder, name))), format).toBe(true);
+  }
+});
 
 test('a page that the tool writes shows what the tool found', async ({ segmentation }) => {
   await engineWithModel('quadruped');

@@ -1,61 +1,61 @@
+import { deflateSync } from 'node:zlib';
 import { expect, test } from '@playwright/test';
 import { readEmbeddedResult } from '../../src/files/embeddedResult';
-import { materialsFile, objFile } from '../../src/files/obj';
-import { plyFile } from '../../src/files/ply';
-import { polygonsOf } from '../../src/files/polygons';
 import { stem } from '../../src/files/save';
 import { readSeeds, seedsFile } from '../../src/files/seeds';
-import { segFile } from '../../src/files/seg';
-import type { Color } from '../../src/model/colorVision';
 import type { Annotation } from '../../src/model/labels';
-import type { MeshData } from '../../src/worker/EngineModule';
+import type { EngineModule, FileFormat } from '../../src/worker/EngineModule';
+import { answer, engineModule, engineWith } from '../browser/fixture';
+import { offFile } from '../meshes';
 
-/** A pentagon as a fan, and a triangle beside it. */
-const mesh: MeshData = {
-  positions: Float32Array.of(0, 0, 0, 1, 0, 0, 1.5, 1, 0, 0.5, 2, 0, -0.5, 1, 0, 2, 0, 0.25),
-  triangles: Uint32Array.of(0, 1, 2, 0, 2, 3, 0, 3, 4, 1, 5, 2),
-  faceOfTriangle: Uint32Array.of(0, 0, 0, 1),
-  faces: 2,
-  faceAreas: Float64Array.of(2.5, 0.5),
-  notes: [],
-};
 const labels = Uint32Array.of(7, 3);
-const colors = new Map<number, Color>([
-  [7, [255, 0, 51]],
-  [3, [0, 114, 178]],
-]);
-
-test('polygons are put together from their fans', () => {
-  expect(polygonsOf(mesh)).toEqual([
+/** A pentagon, and a triangle beside it. */
+const mesh = {
+  points: [
+    [0, 0, 0],
+    [1, 0, 0],
+    [1.5, 1, 0],
+    [0.5, 2, 0],
+    [-0.5, 1, 0],
+    [2, 0, 0.1],
+  ],
+  faces: [
     [0, 1, 2, 3, 4],
     [1, 5, 2],
-  ]);
+  ],
+};
+
+/** A file of that mesh with colours, as the engine writes it. */
+async function fileOf(format: FileFormat): Promise<Buffer> {
+  const engine = await engineWith('mesh.off', offFile(mesh.points, mesh.faces));
+  const colors = Uint32Array.of(7, 255, 0, 51, 3, 0, 114, 178);
+  return Buffer.from(answer(engine.file(format, 'a', 'a.mtl', labels, colors)));
+}
+
+test('PLY files have points, polygons, colours and segments', async () => {
+  const file = await fileOf('ply');
+  const body = file.indexOf('end_header\n') + 'end_header\n'.length;
+  const header = file.toString('latin1', 0, body);
+  expect(header).toContain('element vertex 6\nproperty double x');
+  expect(header).toContain('property uchar blue\nproperty uint segment\n');
+  const data = file.subarray(body);
+  expect(data.length).toBe(6 * 24 + (1 + 5 * 4 + 3 + 4) + (1 + 3 * 4 + 3 + 4));
+  expect(data.readDoubleLE(5 * 24 + 16)).toBe(0.1);
+  expect(data.readUInt8(144)).toBe(5);
+  expect([165, 166, 167].map((at) => data.readUInt8(at))).toEqual([255, 0, 51]);
+  expect(data.readUInt32LE(168)).toBe(7);
+  expect(data.readUInt32LE(data.length - 4)).toBe(3);
 });
 
-test('PLY files have points, polygons, colours and segments', () => {
-  const file = plyFile(mesh, labels, colors);
-  const text = new TextDecoder('latin1').decode(file);
-  const body = text.indexOf('end_header\n') + 'end_header\n'.length;
-  expect(text.slice(0, body)).toContain('element vertex 6\nproperty double x');
-  expect(text.slice(0, body)).toContain('property uchar blue\nproperty uint segment\n');
-  const data = new DataView(file.buffer, body);
-  expect(data.byteLength).toBe(6 * 24 + (1 + 5 * 4 + 3 + 4) + (1 + 3 * 4 + 3 + 4));
-  expect(data.getFloat64(5 * 24 + 16, true)).toBe(0.25);
-  expect(data.getUint8(144)).toBe(5);
-  expect([165, 166, 167].map((at) => data.getUint8(at))).toEqual([255, 0, 51]);
-  expect(data.getUint32(168, true)).toBe(7);
-  expect(data.getUint32(data.byteLength - 4, true)).toBe(3);
-});
-
-test('OBJ files have a group for each segment, and materials', () => {
-  expect(objFile(mesh, labels, 'a.mtl').split('\n')).toEqual([
+test('OBJ files have a group for each segment, and materials', async () => {
+  expect((await fileOf('obj')).toString().split('\n')).toEqual([
     'mtllib a.mtl',
     'v 0 0 0',
     'v 1 0 0',
     'v 1.5 1 0',
     'v 0.5 2 0',
     'v -0.5 1 0',
-    'v 2 0 0.25',
+    'v 2 0 0.1',
     'g segment_3',
     'usemtl segment_3',
     'f 2 6 3',
@@ -64,11 +64,83 @@ test('OBJ files have a group for each segment, and materials', () => {
     'f 1 2 3 4 5',
     '',
   ]);
-  expect(materialsFile(colors)).toBe('newmtl segment_3\nKd 0 0.447059 0.698039\nnewmtl segment_7\nKd 1 0 0.2\n');
+  const materials = (await fileOf('mtl')).toString();
+  expect(materials).toMatch(/^newmtl segment_3\nKd 0 0\.447058\d+ 0\.698039\d+\nnewmtl segment_7\nKd 1 0 0\.2\n$/);
 });
 
-test('SEG files have a line for each face', () => {
-  expect(segFile(labels)).toBe('7\n3\n');
+test('glTF files have a primitive, a material and an accessor of corners for each segment', async () => {
+  const file = await fileOf('glb');
+  expect([file.toString('latin1', 0, 4), file.readUInt32LE(8)]).toEqual(['glTF', file.length]);
+  const size = file.readUInt32LE(12);
+  const scene = JSON.parse(file.toString('utf8', 20, 20 + size));
+  expect(scene.meshes[0].primitives.map(({ extras }: { extras: unknown }) => extras)).toEqual([
+    { label: 3 },
+    { label: 7 },
+  ]);
+  expect(scene.materials.map(({ name }: { name: string }) => name)).toEqual(['segment_3', 'segment_7']);
+  expect(scene.accessors.slice(1).map(({ count }: { count: number }) => count)).toEqual([3, 9]);
+  expect(scene.accessors[0].max).toEqual([2, 2, 0.1]);
+});
+
+test('3MF and NumPy files are archives of their parts', async () => {
+  const model = (await fileOf('3mf')).toString('latin1');
+  expect(model.slice(0, 4)).toBe('PK\x03\x04');
+  expect(model.match(/name="segment_\d" pid="1" pindex="\d"/g)).toHaveLength(2);
+  expect(model.match(/<triangle /g)).toHaveLength(4);
+  const archive = (await fileOf('npz')).toString('latin1');
+  expect(archive).toContain("labels.npy\x93NUMPY\x01\0\x76\0{'descr': '<i8', 'fortran_order': False, 'shape': (2,), }");
+});
+
+test('labels are a line each, or rows of a table', async () => {
+  expect((await fileOf('seg')).toString()).toBe('7\n3\n');
+  expect((await fileOf('csv')).toString()).toBe('face,label\n0,7\n1,3\n');
+});
+
+for (const [format, faces] of [
+  ['ply', 2],
+  ['off', 2],
+  ['obj', 2],
+  ['vtp', 2],
+  ['stl', 4],
+  ['stl-text', 4],
+  ['msh', 4],
+  ['mesh', 4],
+] as [FileFormat, number][])
+  test(`the engine reads the ${format} files that it writes`, async () => {
+    const module = await engineModule();
+    const again = answer(answer(module.readMesh(await fileOf(format), 'file')).mesh());
+    expect(again.notes).toEqual([]);
+    expect(again.faces).toBe(faces);
+    expect(again.positions.length).toBe(18);
+    expect(again.faceAreas.reduce((sum, area) => sum + area)).toBeCloseTo(3.00312, 4);
+  });
+
+test('the engine reads VTP files that are compressed by zlib', async () => {
+  const array = (type: string, name: string, bytes: Buffer) => {
+    const packed = deflateSync(bytes);
+    const header = Buffer.from(Uint32Array.of(1, bytes.length, 0, packed.length).buffer);
+    const text = header.toString('base64') + packed.toString('base64');
+    return `<DataArray type="${type}" Name="${name}" NumberOfComponents="3" format="binary">${text}</DataArray>`;
+  };
+  const points = array('Float32', 'Points', Buffer.from(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0).buffer));
+  const corners = array('Int32', 'connectivity', Buffer.from(Int32Array.of(0, 1, 2).buffer));
+  const ends = array('Int32', 'offsets', Buffer.from(Int32Array.of(3).buffer));
+  const file = `<VTKFile type="PolyData" compressor="vtkZLibDataCompressor"><PolyData>
+<Piece NumberOfPoints="3" NumberOfPolys="1"><Points>${points}</Points><Polys>${corners}${ends}</Polys></Piece>
+</PolyData></VTKFile>`;
+  const read = (content: string) => (module: EngineModule) => module.readMesh(Buffer.from(content), 'a.vtp');
+  const module = await engineModule();
+  expect(answer(answer(read(file)(module)).mesh()).faceAreas[0]).toBe(0.5);
+  const broken = file.replace(/(eJ[^<]{8})./, '$1!');
+  expect(() => answer(read(broken)(module))).toThrow(/^a\.vtp:2: the array 'Points' /);
+});
+
+test('labels that do not fit the mesh and formats that are unknown are refused', async () => {
+  const engine = await engineWith('mesh.off', offFile(mesh.points, mesh.faces));
+  const file = (format: string, labels: Uint32Array) =>
+    answer(engine.file(format as FileFormat, 'a', '', labels, Uint32Array.of(0, 1, 2, 3)));
+  expect(() => file('ply', Uint32Array.of(0))).toThrow('a label for each face is needed');
+  expect(() => file('xyz', Uint32Array.of(0, 0))).toThrow('xyz is none of ply, off');
 });
 
 const annotation: Annotation = {
@@ -129,5 +201,5 @@ test('embedded results are read', () => {
 });
 
 test('names of files lose their endings', () => {
-  expect(['a.b.off', 'hand', '.off'].map(stem)).toEqual(['a.b', 'hand', 'mesh']);
+  expect(['a.b.off', 'hand', '.off', 'a.off.gz'].map(stem)).toEqual(['a.b', 'hand', 'mesh', 'a']);
 });
