@@ -9,6 +9,6 @@ meshes=$1
 outputs=$2
 shift 2
 mkdir -p "$outputs"
-find "$meshes" -name '*.off' | sort |
+find "$meshes" -type f | sort |
   parallel --joblog "$outputs/jobs.log" --resume-failed --quote \
     segment_mesh {} --quiet --labels "$outputs/{/.}.seg" --report "$outputs/{/.}.json" "$@"

@@ -62,7 +62,7 @@ struct Tiled_segmentation {
 
 /// What `survey_tile()` finds.
 struct Tile_survey {
-  std::size_t faces = 0;
+  std::size_t faces = 0;                          ///< how many
   double area = 0;                                ///< of all faces
   Eigen::AlignedBox3d box;                        ///< of the vertices that have faces
   std::vector<Dual_mesh::Index> border_vertices;  ///< on open sides, rising
@@ -72,18 +72,16 @@ struct Tile_survey {
 
 /// What `plan_tiles()` knows of the whole.
 struct Tile_plan {
-  using Index = Dual_mesh::Index;
-
   /// A vertex on the border of a tile that other tiles have, too.
   struct Shared_vertex {
-    Index vertex;  ///< of the tile
-    Index id;      ///< the same in all tiles
+    Dual_mesh::Index vertex;  ///< of the tile
+    Dual_mesh::Index id;      ///< the same in all tiles
   };
   /// What the plan knows of one tile.
   struct Of_tile {
     double area_before = 0;                      ///< of all tiles before this one, in the unit box
     std::vector<Shared_vertex> shared_vertices;  ///< in the order of the vertices
-    std::vector<Index> neighbours;               ///< tiles that share a vertex with it, rising
+    std::vector<Dual_mesh::Index> neighbours;    ///< tiles that share a vertex with it, rising
   };
 
   internal::Unit_box box;      ///< of the whole
@@ -94,13 +92,13 @@ struct Tile_plan {
 
 /// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see.
 struct Tile_border {
-  using Index = Dual_mesh::Index;
-  static constexpr Index none = std::numeric_limits<Index>::max();
+  /// The id of a vertex that no other tile has.
+  static constexpr Dual_mesh::Index none = std::numeric_limits<Dual_mesh::Index>::max();
 
   std::vector<Eigen::Vector3d> points;  ///< in the unit box
-  std::vector<Index> ids;               ///< by point: that of a shared vertex; `none`: no other tile has it
+  std::vector<Dual_mesh::Index> ids;    ///< by point: that of a shared vertex, or `none`
   internal::Face_corners corners;       ///< by face of the border
-  std::vector<Index> faces;             ///< by face of the border: its number in the tile
+  std::vector<Dual_mesh::Index> faces;  ///< by face of the border: its number in the tile
   double width = 0;                     ///< how far it reaches from the tile's border, in the unit box
 };
 
@@ -137,58 +135,54 @@ struct Turn_sums {
 
 /// What `shape_of_tile()` returns and later steps of the same tile go on with. The largest of all, about 250 bytes a face.
 struct Tile_shape {
-  using Index = Dual_mesh::Index;
-
   /// A face of another tile.
   struct Halo_face {
-    Index tile;   ///< that has it
-    Index place;  ///< in that tile's `Tile_border`
+    Dual_mesh::Index tile;   ///< that has it
+    Dual_mesh::Index place;  ///< in that tile's `Tile_border`
   };
   /// An edge between a face of the tile and one of the halo.
   struct Shared_edge {
-    Index edge;
-    internal::Tile_side side;
-    Index neighbour;  ///< the other tile
+    Dual_mesh::Index edge;       ///< of the mesh
+    internal::Tile_side side;    ///< where it lies, the same from both tiles
+    Dual_mesh::Index neighbour;  ///< the other tile
   };
 
-  Dual_mesh mesh;               ///< the faces of the tile, then those of the halo
-  std::size_t own_faces = 0;    ///< faces of the tile
-  std::vector<Halo_face> halo;  ///< by face of the halo
-  std::vector<Shared_edge> shared_edges;
+  Dual_mesh mesh;                         ///< the faces of the tile, then those of the halo
+  std::size_t own_faces = 0;              ///< faces of the tile
+  std::vector<Halo_face> halo;            ///< by face of the halo
+  std::vector<Shared_edge> shared_edges;  ///< all of them
 };
 
 /// What `seeds_of_tiles()` needs of a tile: a coarse graph of its surface, and samples of it.
 struct Tile_outline {
-  using Index = Dual_mesh::Index;
-
-  internal::Turn_sums turns;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of the area
-  std::vector<Index> faces;                          ///< by node: the face that stands for it
-  std::vector<Eigen::Vector3d> centroids;            ///< of these
-  std::vector<std::array<Index, 2>> edges;           ///< between nodes
-  std::vector<double> lengths;                       ///< of these, in the feature-sensitive metric
-  std::vector<internal::Side_value<double>> sides;   ///< lengths between nodes of different tiles
-  std::vector<internal::Thickness_probe> probes;     ///< where the thickness is measured
-  std::size_t turned_sides = 0;                      ///< sides between faces of which one must be turned inside out
+  internal::Turn_sums turns;                           ///< how far normals turn inward
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    ///< of the area
+  std::vector<Dual_mesh::Index> faces;                 ///< by node: the face that stands for it
+  std::vector<Eigen::Vector3d> centroids;              ///< of these
+  std::vector<std::array<Dual_mesh::Index, 2>> edges;  ///< between nodes
+  std::vector<double> lengths;                         ///< of these, in the feature-sensitive metric
+  std::vector<internal::Side_value<double>> sides;     ///< lengths between nodes of different tiles
+  std::vector<internal::Thickness_probe> probes;       ///< where the thickness is measured
+  std::size_t turned_sides = 0;                        ///< sides between faces of which one must be turned inside out
 };
 
 /// Seeds, and what is ordinary on the whole.
 struct Tile_seeds {
-  using Index = Dual_mesh::Index;
   /// A seed.
   struct Seed {
-    Index tile, face;
+    Dual_mesh::Index tile;  ///< where it is
+    Dual_mesh::Index face;  ///< of the tile
   };
   /// Where the thickness is measured.
   struct Probe {
-    Index tile;
-    internal::Thickness_probe probe;
+    Dual_mesh::Index tile;            ///< where it is
+    internal::Thickness_probe probe;  ///< on a face of the tile
   };
 
-  std::vector<Seed> seeds;
-  std::vector<Probe> probes;
-  internal::Mean_concavity ordinary;
-  std::size_t turned_sides = 0;  ///< sides at which two tiles are not oriented alike; no tile goes on there
+  std::vector<Seed> seeds;            ///< in the order in which they were found
+  std::vector<Probe> probes;          ///< tile by tile
+  internal::Mean_concavity ordinary;  ///< means over the edges of all tiles
+  std::size_t turned_sides = 0;       ///< sides at which two tiles are not oriented alike; no tile goes on there
 };
 
 /// What `clusters_of_tile()` keeps for the tile itself: the cluster of each face.
@@ -196,36 +190,32 @@ using Tile_clusters = std::vector<Dual_mesh::Index>;
 
 /// What `walk_over_tiles()` needs of a tile: its clusters of faces as a network of conductances.
 struct Tile_network {
-  using Index = Dual_mesh::Index;
-
-  std::size_t clusters = 0;                         ///< those of the tile's seeds are the first ones
-  std::vector<std::array<Index, 2>> edges;          ///< between clusters
-  std::vector<double> conductances;                 ///< of these
-  std::vector<internal::Side_value<double>> sides;  ///< conductances between clusters of different tiles
-  std::vector<Index> border;                        ///< by face of the tile's `Tile_border`: its cluster
-  std::vector<double> exits;                        ///< of the rays of all probes through this tile
+  std::size_t clusters = 0;                            ///< those of the tile's seeds are the first ones
+  std::vector<std::array<Dual_mesh::Index, 2>> edges;  ///< between clusters
+  std::vector<double> conductances;                    ///< of these
+  std::vector<internal::Side_value<double>> sides;     ///< conductances between clusters of different tiles
+  std::vector<Dual_mesh::Index> border;                ///< by face of the tile's `Tile_border`: its cluster
+  std::vector<double> exits;                           ///< of the rays of all probes through this tile
 };
 
 /// The fragments of the clusters of all tiles.
 struct Tile_walk {
-  using Index = Dual_mesh::Index;
-
-  std::vector<std::vector<Index>> fragments;  ///< by tile and cluster
-  std::vector<std::vector<char>> bands;       ///< by tile and cluster: whether its faces are walked on once more
-  std::vector<double> thickness;              ///< by probe, in the unit box; 0 where it could not be measured
-  std::size_t number_of_fragments = 0;
-  std::size_t clusters = 0;         ///< of all tiles
-  std::size_t components = 0;       ///< connected parts of the whole mesh
-  std::size_t island_clusters = 0;  ///< that the walk left apart from their fragment, moved to a neighbour
-  bool is_solid = false;            ///< whether enough of the whole has a thickness
+  std::vector<std::vector<Dual_mesh::Index>> fragments;  ///< by tile and cluster
+  std::vector<std::vector<char>> bands;  ///< by tile and cluster: whether its faces are walked on once more
+  std::vector<double> thickness;         ///< by probe, in the unit box; 0 where it could not be measured
+  std::size_t number_of_fragments = 0;   ///< of the whole
+  std::size_t clusters = 0;              ///< of all tiles
+  std::size_t components = 0;            ///< connected parts of the whole mesh
+  std::size_t island_clusters = 0;       ///< that the walk left apart from their fragment, moved to a neighbour
+  bool is_solid = false;                 ///< whether enough of the whole has a thickness
 };
 
 /// What `merge_tiles()` needs of a tile: sums over its regions and their boundaries.
 struct Tile_regions {
-  using Index = Dual_mesh::Index;
+  /// What `Learned_cost` asks about a boundary.
   using Boundary_sums = internal::Boundaries_of_cost<Learned_cost, Dual_mesh>::Sums;
 
-  std::vector<Index> fragments;                                          ///< that have faces in the tile, rising
+  std::vector<Dual_mesh::Index> fragments;                               ///< that have faces in the tile, rising
   std::vector<Learned_cost::Region> regions;                             ///< of these
   std::vector<internal::Boundary_of_regions<Boundary_sums>> boundaries;  ///< between fragments, within the tile
   std::vector<internal::Side_value<Boundary_sums>> sides;                ///< those at its border
