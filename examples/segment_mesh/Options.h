@@ -221,6 +221,8 @@ inline void check_tiles(const Options& options) {
   refuse(!files.hierarchy.empty(), "--hierarchy", reason);
   refuse(!files.html.empty(), "--html", reason);
   refuse(options.seconds.has_value(), "--time-limit", reason);
+  refuse(std::find(options.meshes.begin(), options.meshes.end(), mesh_files::standard_input) != options.meshes.end(),
+         "--tiled", "tiles are read more than once, which standard input cannot be");
   refuse(options.resumes, "--resume", "give --tile-folder in its place: what is in it is not done again");
   refuse(has_placeholder(files.report), "--report", "there is one report of all tiles: leave the % out");
 }

@@ -7,6 +7,7 @@
 #include "../Oriented_mesh.h"
 #include "../Output_files.h"
 #include "../Task.h"
+#include "../failure.h"
 #include "../read_input.h"
 #include "../report.h"
 #include "../segment_colors.h"
@@ -176,7 +177,10 @@ class Tile_steps {
     try {
       const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
       refuse_mesh_without_faces(tasks_[tile].mesh, soup);
-      arrays = RW::Tile_of<Mesh>(oriented_mesh(soup, options_.repairs).mesh);
+      const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
+      arrays = RW::Tile_of<Mesh>(input.mesh);
+      if (!options_.is_quiet)
+        for (const std::string& remark : input.remarks) say(tasks_[tile].mesh + ": " + remark);
     } catch (const mesh_files::Unreadable_file& error) {
       failure = error.what();  // leaves the other tiles their segments
     }
