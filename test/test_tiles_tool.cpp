@@ -158,7 +158,8 @@ TEST_F(Tiles, OfWhichOneCannotBeReadLeaveTheOthersTheirSegments) {
   EXPECT_EQ(result.exit_code, 6);
   EXPECT_NE(result.errors.find("tile_1.off"), std::string::npos) << result.errors;
   EXPECT_FALSE(fs::exists(path("tile_1.seg")));
-  for (const std::size_t t : {0, 2, 3}) EXPECT_EQ(labels("tile_" + std::to_string(t) + ".seg").size(), faces_[t]);
+  for (const std::size_t t : {std::size_t(0), std::size_t(2), std::size_t(3)})
+    EXPECT_EQ(labels("tile_" + std::to_string(t) + ".seg").size(), faces_[t]);
   EXPECT_EQ(Json::parse(content_of(path("report.json")))["failed"].size(), 1U);
   for (std::size_t t = 0; t < 4; ++t) write(name(t), "nothing");
   EXPECT_EQ(run(command({"--quiet"})).exit_code, 2);

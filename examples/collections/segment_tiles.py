@@ -70,7 +70,7 @@ def main() -> None:
     parser.add_argument("--options", default="", help="options of segment_mesh, such as --segments 12")
     arguments = parser.parse_args()
     cluster = arguments.scheduler or LocalCluster(
-        n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None
+        n_workers=arguments.workers, threads_per_worker=1, dashboard_address=":0"
     )
     with Client(cluster) as client:
         segment(client, arguments.work, arguments.outputs, arguments.tiles, shlex.split(arguments.options))

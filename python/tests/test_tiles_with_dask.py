@@ -56,7 +56,7 @@ def test_a_killed_worker_changes_nothing(
 ) -> None:
     monkeypatch.setenv("PATH", environment(tool)["PATH"])
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
         distributed.Client(cluster) as client,
         subprocess.Popen([*command(tmp_path, tiles), "--scheduler", cluster.scheduler_address]) as recipe,
     ):
