@@ -127,7 +127,7 @@ TEST_F(Tiles, GetTheSameLabelsByOneWorkerManyOrStepByStep) {
 }
 
 TEST_F(Tiles, GetTheSameLabelsWhenWorkersAndTheProgramAreKilled) {
-  write_tiles(meshes::subdivided(meshes::subdivided(meshes::two_spheres_with_neck(2.6, 0.35, 40))));
+  write_tiles(meshes::subdivided(meshes::two_spheres_with_neck(2.6, 0.35, 40)));
   ASSERT_EQ(run(command({})).exit_code, 0);
   const auto undisturbed = take_labels();
 

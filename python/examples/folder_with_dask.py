@@ -33,7 +33,7 @@ def main() -> None:
     """Segment all meshes of a folder."""
     folder, output = Path(sys.argv[1]), Path(sys.argv[2])
     output.mkdir(exist_ok=True)
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster, Client(cluster) as client:
         files = sorted(path for path in folder.iterdir() if path.suffix in (".off", ".ply", ".obj", ".stl"))
         for done in as_completed(client.map(segment_file, files, output=output)):
             name, segments, reason = done.result()
