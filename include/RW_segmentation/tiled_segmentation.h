@@ -296,7 +296,7 @@ std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tile
 
 /// Merges the fragments of all tiles, by `Learned_cost`.
 /// \throws Cancelled
-Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& regions, const Progress& progress = {});
+Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& tiles, const Progress& progress = {});
 
 /// All levels of a segmentation of tiles.
 struct Tiled_hierarchy {

@@ -121,13 +121,14 @@ class Border_matching {
     };
     for (std::size_t v = 0; v < points_.size(); ++v) {
       const auto cell = cell_of(points_[v]);
-      for (int around = 0; around < 27; ++around) {
-        const auto found =
-            cells.find({cell[0] + around % 3 - 1, cell[1] + around / 3 % 3 - 1, cell[2] + around / 9 - 1});
-        if (found == cells.end()) continue;
-        for (const Index other : found->second)
-          if ((points_[other] - points_[v]).norm() <= tolerance) unite(static_cast<Index>(v), other);
-      }
+      for (const double x : {-1., 0., 1.})
+        for (const double y : {-1., 0., 1.})
+          for (const double z : {-1., 0., 1.}) {
+            const auto found = cells.find({cell[0] + x, cell[1] + y, cell[2] + z});
+            if (found == cells.end()) continue;
+            for (const Index other : found->second)
+              if ((points_[other] - points_[v]).norm() <= tolerance) unite(static_cast<Index>(v), other);
+          }
       cells[cell].push_back(static_cast<Index>(v));
     }
   }

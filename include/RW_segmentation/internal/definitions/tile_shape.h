@@ -55,7 +55,7 @@ RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners cor
 /// Faces within a distance of some faces, along paths from centroid to centroid; those themselves first.
 /// \param distance_between a function from two neighbouring faces to their distance
 template <class Distance>
-std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph, std::vector<Dual_graph::Index> sources,
+std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph, const std::vector<Dual_graph::Index>& sources,
                                             double distance, const Distance& distance_between) {
   using Index = Dual_graph::Index;
   std::vector<float> reached(graph.number_of_faces(), std::numeric_limits<float>::infinity());
@@ -98,7 +98,7 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
   for (Index f = 0; f < mesh.number_of_faces(); ++f)
     for (const Index v : mesh.corners(f))
       if (id[v] != Tile_border::none) at_border.push_back(f);
-  border.faces = faces_within(mesh.graph(), std::move(at_border), border.width,
+  border.faces = faces_within(mesh.graph(), at_border, border.width,
                               [&](Index f, Index g) { return (mesh.centroid(f) - mesh.centroid(g)).norm(); });
   std::sort(border.faces.begin(), border.faces.end());
 
@@ -222,8 +222,8 @@ class Tile_surroundings {
       for (const Index v : corners[f]) sum += points[v];
       centroid.push_back(sum / static_cast<double>(corners[f].size()));
     }
-    std::vector<Index> near = faces_within(graph, std::move(sources), width,
-                                           [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
+    std::vector<Index> near =
+        faces_within(graph, sources, width, [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
     std::sort(near.begin(), near.end());
 
     std::unordered_map<Index, Index> taken;
