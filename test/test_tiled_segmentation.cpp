@@ -4,7 +4,7 @@
 
 #include <RW_segmentation/tiled_segmentation.h>
 
-#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Tile.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>

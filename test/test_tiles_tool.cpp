@@ -232,6 +232,18 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
   for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(fs::exists(path("tile_" + std::to_string(t) + ".seg")));
 }
 
+TEST_F(Tiles, LeaveNoTemporaryFolderWhenStopped) {
+  using namespace std::chrono_literals;
+  write_tiles(meshes::subdivided(meshes::two_spheres_with_neck(2.6, 0.35, 40)));
+  for (const auto pause : {20ms, 100ms}) {
+    const pid_t program = start(command({}), [] { setenv("TMPDIR", ".", 1); });
+    std::this_thread::sleep_for(pause);
+    kill(program, SIGTERM);
+    wait(program);
+    for (const auto& entry : fs::directory_iterator(path(""))) EXPECT_FALSE(entry.is_directory()) << entry.path();
+  }
+}
+
 TEST_F(Tiles, StopWhenAskedTo) {
   const pid_t program = start(command({"--tile-folder", "work"}));
   using namespace std::chrono_literals;

@@ -133,7 +133,7 @@ struct Turn_sums {
 
 }  // namespace internal
 
-/// What `shape_of_tile()` returns and later steps of the same tile go on with. The largest of all, about 250 bytes a face.
+/// What `shape_of_tile()` returns and later steps of the same tile go on with. The largest of all: a `Dual_mesh` with normals.
 struct Tile_shape {
   /// A face of another tile.
   struct Halo_face {

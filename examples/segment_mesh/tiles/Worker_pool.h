@@ -10,6 +10,7 @@
 #include <RW_segmentation/Progress.h>
 
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -127,6 +128,8 @@ class Worker_pool {
   }
 
   [[noreturn]] void stop() {
+    const itimerval never{};  // to remove what workers have left may take longer than the patience after a signal
+    ::setitimer(ITIMER_REAL, &never, nullptr);
     for (const auto& [child, job] : running_) ::kill(child, SIGTERM);
     for (const auto& [child, job] : running_) ::waitpid(child, nullptr, 0);
     running_.clear();

@@ -8,9 +8,8 @@
 #include "Tile_steps.h"
 #include "Worker_pool.h"
 
-#include <cstdlib>
 #include <filesystem>
-#include <numeric>
+#include <random>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -28,10 +27,9 @@ class Work_folder {
   explicit Work_folder(std::string path) : path_(std::move(path)) {
     std::error_code error;
     if (path_.empty()) {
-      std::string name = (fs::temp_directory_path() / "segment_mesh_XXXXXX").string();
-      if (!::mkdtemp(name.data())) throw mesh_files::Unwritable_file(name + ": cannot be made");
-      path_ = name;
-      is_temporary_ = true;
+      path_ = (fs::temp_directory_path() / ("segment_mesh_" + std::to_string(std::random_device()()))).string();
+      is_temporary_ = fs::create_directory(path_, error);
+      if (!is_temporary_) throw mesh_files::Unwritable_file(path_ + ": cannot be made");
     } else if (fs::create_directories(path_, error); error) {
       throw mesh_files::Unwritable_file(path_ + ": " + error.message());
     }

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,8 @@ inline Coarse_labels coarse_labels(const Tile_shape& shape, std::size_t number, 
   };
   for (const Index cluster : clusters) append(number, cluster);
   labels.seeds = seeds_in(seeds, number);
-  std::map<std::pair<Index, Index>, bool> is_seed;
-  for (const auto& [tile, face] : seeds.seeds) is_seed[{tile, face}] = true;
+  std::set<std::pair<Index, Index>> is_seed;
+  for (const auto& [tile, face] : seeds.seeds) is_seed.emplace(tile, face);
   const std::vector<Index>& tiles = plan.tiles[number].neighbours;
   for (std::size_t h = 0; h < shape.halo.size(); ++h) {
     const auto [tile, place] = shape.halo[h];
@@ -63,7 +64,7 @@ inline std::vector<double> thickness_in(const Tile_shape& shape, std::size_t num
 
 /// Sums over the regions of a tile and the edges between them.
 inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const std::vector<std::size_t>& fragment,
-                           const Learned_cost& cost, const Mean_concavity& ordinary) {
+                           const Learned_cost& cost, const std::vector<double>& difference) {
   using Index = Dual_mesh::Index;
   using Asking = Boundaries_of_cost<Learned_cost, Dual_mesh>;
   const Dual_mesh& mesh = shape.mesh;
@@ -75,9 +76,8 @@ inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const st
     result.regions.push_back(region);
   }
 
-  const Edge_concavity concavity(mesh, ordinary);
   const auto sums_of = [&](Index e) {
-    return Asking::of_edge(cost, mesh, e, mesh.edge_length(e) / mesh.length_unit(), concavity.excess(e));
+    return Asking::of_edge(cost, mesh, e, mesh.edge_length(e) / mesh.length_unit(), difference[e]);
   };
   std::map<std::array<Index, 2>, Tile_regions::Boundary_sums> boundaries;
   for (Index e = 0; e < mesh.number_of_edges(); ++e) {
@@ -104,10 +104,11 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(
     const Progress& progress) {
   internal::Coarse_labels labels =
       internal::coarse_labels(shape, number, plan, clusters, seeds, neighbour_borders, neighbours, walk);
-  internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, seeds.ordinary), labels.is_in_band,
+  const std::vector<double> difference = internal::differences_of(shape.mesh, seeds.ordinary);
+  internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, difference), labels.is_in_band,
                         labels.seeds, labels.fragment, progress);
   const Learned_cost cost(shape.mesh, internal::thickness_in(shape, number, seeds, walk), seeds.ordinary);
-  regions = internal::sum_up(shape, number, labels.fragment, cost, seeds.ordinary);
+  regions = internal::sum_up(shape, number, labels.fragment, cost, difference);
   const auto end_of_own = labels.fragment.begin() + static_cast<std::ptrdiff_t>(shape.own_faces);
   return {labels.fragment.begin(), end_of_own};
 }

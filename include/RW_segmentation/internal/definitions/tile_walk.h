@@ -117,8 +117,8 @@ inline std::vector<double> differences_of(const Dual_mesh& part, const Mean_conc
 }
 
 /// The paper's sigma, and the cap of `Conductance`.
-inline std::vector<double> conductances_of(const Dual_mesh& part, const Mean_concavity& ordinary) {
-  return conductances(part, differences_of(part, ordinary), 1, 20);
+inline std::vector<double> conductances_of(const Dual_mesh& part, const std::vector<double>& difference) {
+  return conductances(part, difference, 1, 20);
 }
 
 /// Faces of a tile that are seeds.
@@ -147,7 +147,8 @@ RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, s
                                                       const Tiled_segmentation& options) {
   internal::require_reduction_numbers(options.reduction);
   const internal::Own_graph own(shape);
-  const std::vector<double> conductances = internal::conductances_of(shape.mesh, seeds.ordinary);
+  const std::vector<double> conductances =
+      internal::conductances_of(shape.mesh, internal::differences_of(shape.mesh, seeds.ordinary));
   const internal::Face_clusters clusters = internal::clusters_around(
       internal::seeds_in(seeds, number), own.graph, own.own(conductances), own.own(shape.mesh.edge_lengths()),
       options.reduction.largest_difference, internal::cluster_steps(plan.faces, options.reduction));
