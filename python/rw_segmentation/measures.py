@@ -15,12 +15,11 @@ from rw_segmentation._progress import Progress, reporting
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from rw_segmentation.segmentation import Policy
 
 # The smoothing length of normals as a part of the root of the area, as the automatic segmentation sees shapes.
-_SMOOTHING = 0.01
+SMOOTHING = 0.01
 # Of the balls in which curvatures are measured, in mean edge lengths.
-_RADIUS = 3.0
+RADIUS = 3.0
 
 
 class InteriorEdges(NamedTuple):
@@ -140,7 +139,7 @@ def curvature_difference(
     faces: Faces,
     *,
     radius: float | None = None,
-    radius_in_edge_lengths: float = _RADIUS,
+    radius_in_edge_lengths: float = RADIUS,
     repair: bool = True,
     progress: Progress = None,
 ) -> NDArray[np.float64]:
@@ -199,19 +198,6 @@ def feature_difference_of_mesh(mesh: _core.Mesh, features: ArrayLike) -> NDArray
     return distance / mean if mean > 0 else distance
 
 
-def difference_of_name(mesh: _core.Mesh, name: str, policy: Policy) -> NDArray[np.float64]:
-    """Measure the difference that a policy's name stands for."""
-    if name == "curvature":
-        return _core.curvature_difference(mesh, _RADIUS if policy.radius is None else policy.radius, True, None)
-    if name not in ("concavity", "dihedral"):
-        raise ValueError(f"difference: {name} is none of dihedral, concavity, curvature")
-    is_concavity = name == "concavity"
-    weight = (0.02 if is_concavity else 0.2) if policy.convex_weight is None else policy.convex_weight
-    measure = ("angle" if is_concavity else "cosine") if policy.measure is None else policy.measure
-    smoothing = (0.0 if policy.base == "paper" else _SMOOTHING) if policy.smoothing is None else policy.smoothing
-    return _core.dihedral_difference(mesh, weight, measure, smoothing, 0.0, None)
-
-
 def conductance(
     vertices: ArrayLike,
     faces: Faces,
@@ -254,7 +240,7 @@ def curvatures(
     faces: Faces,
     *,
     radius: float | None = None,
-    radius_in_edge_lengths: float = _RADIUS,
+    radius_in_edge_lengths: float = RADIUS,
     repair: bool = True,
     progress: Progress = None,
 ) -> Curvatures:
@@ -338,7 +324,7 @@ def smoothed_normals(
     vertices: ArrayLike,
     faces: Faces,
     *,
-    smoothing: float = _SMOOTHING,
+    smoothing: float = SMOOTHING,
     repair: bool = True,
     progress: Progress = None,
 ) -> NDArray[np.float64]:

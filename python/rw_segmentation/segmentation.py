@@ -12,7 +12,7 @@ import numpy as np
 from rw_segmentation import _core
 from rw_segmentation._arrays import Faces, integer_of, integers_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
-from rw_segmentation.measures import difference_of_name, feature_difference_of_mesh
+from rw_segmentation.measures import RADIUS, SMOOTHING, feature_difference_of_mesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -230,6 +230,19 @@ class Hierarchy:
 def policy_of(policy: PolicyName | Policy) -> Policy:
     """Make a policy of its name."""
     return policy if isinstance(policy, Policy) else Policy(base=policy)  # type: ignore[arg-type]
+
+
+def difference_of_name(mesh: _core.Mesh, name: str, policy: Policy) -> NDArray[np.float64]:
+    """Measure the difference that a policy's name stands for."""
+    if name == "curvature":
+        return _core.curvature_difference(mesh, RADIUS if policy.radius is None else policy.radius, True, None)
+    if name not in ("concavity", "dihedral"):
+        raise ValueError(f"difference: {name} is none of dihedral, concavity, curvature")
+    is_concavity = name == "concavity"
+    weight = (0.02 if is_concavity else 0.2) if policy.convex_weight is None else policy.convex_weight
+    measure = ("angle" if is_concavity else "cosine") if policy.measure is None else policy.measure
+    smoothing = (0.0 if policy.base == "paper" else SMOOTHING) if policy.smoothing is None else policy.smoothing
+    return _core.dihedral_difference(mesh, weight, measure, smoothing, 0.0, None)
 
 
 def difference_of(
