@@ -6,8 +6,8 @@
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/fragments_via_random_walks.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
@@ -39,9 +39,7 @@ void segment_by_hand(Mesh& mesh, Labels labels) {
   const Dihedral_difference difference(shape, smoothed_concavity());
   std::vector<Mesh::Face_index> seeds;
   feature_sensitive_seeds(shape, Automatic_segmentation().seeding.count, std::back_inserter(seeds));
-  Random_walk walk(shape, Conductance(shape, difference));
-  for (std::size_t s = 0; s < seeds.size(); ++s) walk.add_seed(seeds[s], s);
-  walk.segment(labels);
+  fragments_via_random_walks(shape, Conductance(shape, difference), seeds, labels);
   const auto thickness = mesh.add_property_map<Mesh::Face_index, double>("f:thickness").first;
   local_thickness(shape, thickness);
   const auto hierarchy = merge_segments(shape, labels, difference, Learned_cost(shape, thickness));

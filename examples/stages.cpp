@@ -6,8 +6,8 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Learned_cost.h>
-#include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/fragments_via_random_walks.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
 
     std::vector<Face> seeds;
     RW::feature_sensitive_seeds(shape, 40, std::back_inserter(seeds));
-    RW::segmentation_from_seeds(shape, conductance, seeds, segment);
+    RW::fragments_via_random_walks(shape, conductance, seeds, segment);
 
     RW::local_thickness(shape, thickness);
     const RW::Learned_cost cost(shape, thickness);

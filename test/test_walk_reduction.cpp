@@ -1,9 +1,18 @@
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Eigen_walk_solver.h>
+#include <RW_segmentation/Learned_cost.h>
+#include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/Walk_reduction.h>
+#include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/fragments_via_random_walks.h>
 #include <RW_segmentation/internal/walk/settle_band.h>
 #include <RW_segmentation/internal/walk/walk_fragments.h>
+#include <RW_segmentation/local_thickness.h>
+#include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smoothed_face_normals.h>
 
 #include <boost/property_map/function_property_map.hpp>
 
@@ -16,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <set>
@@ -26,6 +36,7 @@
 using namespace RW_segmentation;
 using internal::Face_clusters;
 using networks::Index;
+using Face = meshes::Surface_mesh::Face_index;
 
 namespace {
 
@@ -283,4 +294,61 @@ TEST(WalkReduction, NumbersOutOfRangeAreErrors) {
   policy.reduction = Walk_reduction();
   policy.reduction.largest_difference = 0;
   EXPECT_THROW(segmented(mesh, policy), std::invalid_argument);
+}
+
+TEST(FragmentsViaRandomWalks, MergedTheyAreTheLabelsOfTheOneCallWhetherReducedOrNot) {
+  auto mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(2.4, 0.3, 96));
+  const auto thickness = mesh.add_property_map<Face, double>("f:thickness").first;
+  for (const std::size_t largest_direct : {std::size_t(0), std::size_t(num_faces(mesh))}) {
+    Automatic_segmentation policy;
+    policy.reduction.largest_direct = largest_direct;
+    const Dual_mesh_of shape = smoothed_shape(Dual_mesh_of(mesh));
+    const Dihedral_difference difference(shape, smoothed_concavity());
+    std::vector<Face> seeds;
+    feature_sensitive_seeds(shape, policy.seeding.count, std::back_inserter(seeds));
+    Face_labels<meshes::Surface_mesh> ids(mesh);
+    EXPECT_EQ(fragments_via_random_walks(shape, Conductance(shape, difference), seeds, ids.map(), policy.reduction),
+              seeds.size());
+    local_thickness(shape, thickness);
+    const auto hierarchy = merge_segments(shape, ids.map(), difference, Learned_cost(shape, thickness));
+    hierarchy.segments(policy.stop, ids.map());
+    EXPECT_EQ(ids.values(), segmented(mesh, policy).ids);
+  }
+}
+
+TEST(FragmentsViaRandomWalks, AreTheLabelsOfRandomWalkFromTheSameSeeds) {
+  const auto mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(2.4, 0.3, 24));
+  const Dual_mesh_of dual(mesh);
+  const Conductance conductance(dual, Dihedral_difference(dual));
+  const std::vector<Face> seeds = {Face(3), Face(400), Face(1000)};
+  Random_walk walk(dual, conductance);
+  for (std::size_t s = 0; s < seeds.size(); ++s) walk.add_seed(seeds[s], s);
+  Face_labels<meshes::Surface_mesh> walked(mesh), ids(mesh);
+  walk.segment(walked.map());
+  EXPECT_EQ(fragments_via_random_walks(dual, conductance, seeds, ids.map()), 3u);
+  EXPECT_EQ(ids.values(), walked.values());
+  Face_labels<meshes::Surface_mesh> by_eigen(mesh);
+  fragments_via_random_walks(mesh, conductance, seeds, by_eigen.map(), {}, Eigen_walk_solver<>());
+  EXPECT_EQ(by_eigen.values(), walked.values());
+}
+
+TEST(FragmentsViaRandomWalks, WriteNothingWhereTheyCannotAnswer) {
+  const auto mesh = meshes::surface_mesh(meshes::sphere(1));
+  const Dual_mesh_of dual(mesh);
+  const Conductance conductance(dual, Dihedral_difference(dual));
+  using Faces = std::vector<Face>;
+  Face_labels<meshes::Surface_mesh> ids(mesh);
+  const auto untouched = ids.values();
+  EXPECT_THROW(
+      fragments_via_random_walks(dual, conductance, Faces{Face(static_cast<Index>(num_faces(mesh)))}, ids.map()),
+      std::invalid_argument);
+  Walk_reduction reduction;
+  reduction.cluster_steps = 0;
+  EXPECT_THROW(fragments_via_random_walks(dual, conductance, Faces{}, ids.map(), reduction), std::invalid_argument);
+  EXPECT_THROW(
+      fragments_via_random_walks(dual, conductance, Faces{Face(0), Face(5)}, ids.map(), {}, Star_mesh_elimination(),
+                                 CGAL::parameters::callback([](double) { return false; })),
+      Cancelled);
+  EXPECT_EQ(ids.values(), untouched);
+  EXPECT_EQ(fragments_via_random_walks(dual, conductance, Faces{}, ids.map()), 1u);  // a component without a seed
 }
