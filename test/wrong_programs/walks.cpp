@@ -6,6 +6,7 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Random_walk.h>
+#include <RW_segmentation/fragments_via_random_walks.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -25,6 +26,9 @@ void differences(const Mesh& mesh, Mesh::Property_map<Mesh::Face_index, std::siz
 
   // error: segmentation_from_seeds() needs conductances: Conductance(mesh, difference), or as_conductance(map) for values of your own.
   segmentation_from_seeds(mesh, difference, seeds, ids);
+
+  // error: fragments_via_random_walks() needs conductances: Conductance(mesh, difference), or as_conductance(map) for values of your own.
+  fragments_via_random_walks(mesh, difference, seeds, ids);
 }
 
 void solvers(const Mesh& mesh) {
@@ -49,4 +53,7 @@ void outputs(const Mesh& mesh, std::vector<std::size_t> ids) {
 
   // error: segment_ids must be a writable property map from the mesh's face_descriptor to an integer.
   walk.segment(ids);
+
+  // error: fragment_ids must be a writable property map from the mesh's face_descriptor to an integer.
+  fragments_via_random_walks(mesh, Conductance(mesh, Dihedral_difference(mesh)), faces(mesh), ids);
 }
