@@ -2,6 +2,8 @@
 
 // What is measured on a mesh.
 
+#include "for_each_concurrency.h"
+
 #include <RW_segmentation/internal/definitions/Conductance.h>
 #include <RW_segmentation/internal/definitions/Curvature_difference.h>
 #include <RW_segmentation/internal/definitions/Dihedral_difference.h>
@@ -11,14 +13,6 @@
 #include <RW_segmentation/internal/definitions/smoothed_face_normals.h>
 
 namespace RW_segmentation::internal {
-
-#ifdef CGAL_LINKED_WITH_TBB
-#define RW_SEGMENTATION_FOR_EACH_CONCURRENCY(INSTANTIATE) \
-  INSTANTIATE(CGAL::Sequential_tag)                       \
-  INSTANTIATE(CGAL::Parallel_tag)
-#else
-#define RW_SEGMENTATION_FOR_EACH_CONCURRENCY(INSTANTIATE) INSTANTIATE(CGAL::Sequential_tag)
-#endif
 
 #define RW_SEGMENTATION_INSTANTIATE(ConcurrencyTag)                                                           \
   template std::vector<double> thickness_by_face<ConcurrencyTag>(const Dual_mesh&, const Thickness_of_faces&, \

@@ -2,6 +2,8 @@
 
 // Seeds, walks and what is merged.
 
+#include "for_each_concurrency.h"
+
 #include <RW_segmentation/internal/definitions/Graph_walk.h>
 #include <RW_segmentation/internal/definitions/Learned_cost.h>
 #include <RW_segmentation/internal/definitions/Particle_sampling.h>
@@ -9,5 +11,16 @@
 #include <RW_segmentation/internal/definitions/coarse_seeds.h>
 #include <RW_segmentation/internal/definitions/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/definitions/region_boundaries.h>
+#include <RW_segmentation/internal/definitions/segmentation_via_random_walks.h>
 #include <RW_segmentation/internal/definitions/transfer_segments.h>
 #include <RW_segmentation/internal/definitions/walk_fragments.h>
+
+namespace RW_segmentation::internal {
+
+#define RW_SEGMENTATION_INSTANTIATE(ConcurrencyTag)                                                                    \
+  template Merged_fragments segment_by_automatic_policies<ConcurrencyTag>(const Dual_mesh&, const Automatic_policies&, \
+                                                                          const std::vector<Dual_mesh::Index>&,        \
+                                                                          const Progress&, Segmentation_report);
+RW_SEGMENTATION_FOR_EACH_CONCURRENCY(RW_SEGMENTATION_INSTANTIATE)
+
+}  // namespace RW_segmentation::internal

@@ -1,6 +1,6 @@
+#include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>
-#include <RW_segmentation/internal/surfaces/analytic_regions.h>
 #include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 

@@ -36,17 +36,25 @@ namespace RW_segmentation {
 
 namespace internal {
 
+/// What policies make of a mesh.
+struct Merged_fragments {
+  Merge_tree tree;
+  std::vector<std::size_t> fragment_of_face;
+  Segmentation_report report;
+};
+
 /// Segments a mesh that has been read: seeds, walk, merging.
+/// \tparam Mesh a `Dual_mesh_of`, or `Dual_mesh` for policies that ask for no descriptors
 template <class ConcurrencyTag, class Mesh, class Policies>
-Random_walk_hierarchy<Mesh> segment_by_policies(const Dual_mesh_of<Mesh>& mesh, const Policies& policies,
-                                                const std::vector<Dual_mesh::Index>& given, const Progress& progress,
-                                                Segmentation_report report) {
+Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
+                                     const std::vector<Dual_mesh::Index>& given, const Progress& progress,
+                                     Segmentation_report report) {
   Stage_clock clock(report.stages);
-  Dual_mesh_of<Mesh> shape = mesh;
+  Mesh shape = mesh;
   std::vector<double> difference, conductance;
   Components component;
   const auto prepare_walk = [&] {
-    shape = {shape_of(mesh, policies.smoothing, progress.part(0, 0.25)), mesh};
+    shape = with_descriptors(shape_of(mesh, policies.smoothing, progress.part(0, 0.25)), mesh);
     clock.note("normals");
     difference = differences_by(policies.difference, shape, progress.part(0.25, 0.3));  // Eq. 4-5, 7-8
     conductance = conductances(shape, difference, policies.sigma, policies.cap);        // Eq. 6
@@ -91,8 +99,14 @@ Random_walk_hierarchy<Mesh> segment_by_policies(const Dual_mesh_of<Mesh>& mesh, 
       merge_fragments(shape, fragments.of_face, report.fragments, difference, *cost, progress.part(0.9, 1));
   clock.note("merging");
   progress(1);
-  return {{std::move(tree), shape.face_descriptors(), std::move(fragments.of_face)}, std::move(report)};
+  return {std::move(tree), std::move(fragments.of_face), std::move(report)};
 }
+
+/// By the library's own policies, which ask for no descriptors.
+template <class ConcurrencyTag>
+Merged_fragments segment_by_automatic_policies(const Dual_mesh& mesh, const Automatic_policies& policies,
+                                               const std::vector<Dual_mesh::Index>& given, const Progress& progress,
+                                               Segmentation_report report);
 
 }  // namespace internal
 
@@ -127,8 +141,16 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
         const std::vector<Dual_mesh::Index> given = internal::read_seeds(dual, given_seeds);
         if (dual.number_of_faces() == 0) return {};
         clock.note("mesh");
-        return internal::segment_by_policies<ConcurrencyTag>(dual, policies, given, internal::progress_of(np),
-                                                             std::move(report));
+        internal::Merged_fragments merged = [&] {
+          if constexpr (std::is_convertible_v<const Policies*, const internal::Automatic_policies*>)
+            return internal::segment_by_automatic_policies<ConcurrencyTag>(
+                dual, policies, given, internal::progress_of(np), std::move(report));
+          else
+            return internal::segment_by_policies<ConcurrencyTag>(dual, policies, given, internal::progress_of(np),
+                                                                 std::move(report));
+        }();
+        return {{std::move(merged.tree), dual.face_descriptors(), std::move(merged.fragment_of_face)},
+                std::move(merged.report)};
       });
 }
 
@@ -231,5 +253,9 @@ std::size_t segmentation_via_random_walks(const FaceListGraph& mesh, SegmentIdMa
 }
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/segmentation_via_random_walks.h>
+#endif
 
 #endif

@@ -33,6 +33,13 @@ auto call_policy(const Policy& policy, const Progress& progress, const Arguments
     return policy(arguments...);
 }
 
+/// A mesh made of another one, with that one's descriptors if it has any.
+inline Dual_mesh with_descriptors(Dual_mesh made, const Dual_mesh&) { return made; }
+template <class Mesh>
+Dual_mesh_of<Mesh> with_descriptors(Dual_mesh made, const Dual_mesh_of<Mesh>& mesh) {
+  return {std::move(made), mesh};
+}
+
 /// An edge map, or an array that a difference policy has made, in the order of the edges.
 template <class Mesh, class Differences>
 std::vector<double> read_differences(const Dual_mesh_of<Mesh>& mesh, Differences&& differences) {
@@ -65,19 +72,25 @@ std::vector<double> differences_by(const Policy& policy, const Dual_mesh_of<Mesh
     return read_differences(mesh, call_policy(policy, progress, mesh));
 }
 
+/// The differences of the library's own policies need no check.
+template <class Policy>
+std::vector<double> differences_by(const Policy& policy, const Dual_mesh& mesh, const Progress& progress) {
+  return call_policy(policy, progress, mesh);
+}
+
 /// The given seeds and those that a policy adds, each once.
+/// \tparam Mesh a `Dual_mesh_of`, or a `Dual_mesh`
 /// \throws std::invalid_argument, Cancelled
 template <class Policy, class Mesh>
-std::vector<Dual_mesh::Index> seeds_by(const Policy& policy, const Dual_mesh_of<Mesh>& mesh,
-                                       const std::vector<double>& difference,
+std::vector<Dual_mesh::Index> seeds_by(const Policy& policy, const Mesh& mesh, const std::vector<double>& difference,
                                        const std::vector<Dual_mesh::Index>& given, const Progress& progress) {
   using Index = Dual_mesh::Index;
-  static_assert(std::is_invocable_v<const Policy&, const Dual_mesh_of<Mesh>&, const std::vector<double>&,
-                                    const std::vector<Index>&> ||
-                    std::is_invocable_v<const Policy&, const Dual_mesh_of<Mesh>&, const std::vector<double>&,
-                                        const std::vector<Index>&, const Progress&>,
-                "A seeding is a function object from a Dual_mesh_of, its differences by edge and the given seeds to a "
-                "range of numbers of faces.");
+  static_assert(
+      std::is_invocable_v<const Policy&, const Mesh&, const std::vector<double>&, const std::vector<Index>&> ||
+          std::is_invocable_v<const Policy&, const Mesh&, const std::vector<double>&, const std::vector<Index>&,
+                              const Progress&>,
+      "A seeding is a function object from a Dual_mesh_of, its differences by edge and the given seeds to a "
+      "range of numbers of faces.");
   std::vector<Index> seeds = given;
   std::vector<bool> is_seed(mesh.number_of_faces(), false);
   for (const Index face : given) is_seed[face] = true;
@@ -93,11 +106,12 @@ std::vector<Dual_mesh::Index> seeds_by(const Policy& policy, const Dual_mesh_of<
 }
 
 /// A merge cost, or the one that a policy makes of a mesh.
+/// \tparam Mesh a `Dual_mesh_of`, or a `Dual_mesh`
 template <class Policy, class Mesh>
-auto merge_cost_by(const Policy& policy, const Dual_mesh_of<Mesh>& mesh) {
-  constexpr bool is_cost = is_merge_cost<Policy, Dual_mesh_of<Mesh>>;
+auto merge_cost_by(const Policy& policy, const Mesh& mesh) {
+  constexpr bool is_cost = is_merge_cost<Policy, Mesh>;
   static_assert(
-      is_cost || std::is_invocable_v<const Policy&, const Dual_mesh_of<Mesh>&>,
+      is_cost || std::is_invocable_v<const Policy&, const Mesh&>,
       "A merge cost has a type Region and the functions region(), join() and operator(), all of them const, or it "
       "is a function object from a Dual_mesh_of to such a one.");
   if constexpr (is_cost)
@@ -108,7 +122,7 @@ auto merge_cost_by(const Policy& policy, const Dual_mesh_of<Mesh>& mesh) {
 
 /// The type of that merge cost.
 template <class Policy, class Mesh>
-using Merge_cost_by = decltype(merge_cost_by(std::declval<const Policy&>(), std::declval<const Dual_mesh_of<Mesh>&>()));
+using Merge_cost_by = decltype(merge_cost_by(std::declval<const Policy&>(), std::declval<const Mesh&>()));
 
 }  // namespace RW_segmentation::internal
 

@@ -11,7 +11,7 @@
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
-#include <RW_segmentation/internal/surfaces/analytic_regions.h>
+#include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
                                                                   Stage_clock& clock) {
   const Surface_tolerance tolerance = surface_tolerance(mesh, noise);
   clock.note("noise");
-  const Analytic_regions regions = analytic_regions(mesh, tolerance, progress.part(0, 0.8));
+  const Analytic_regions regions = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));
   clock.note("surfaces");
 
   const std::vector<double> conductance = conductances_beside_surfaces(mesh);

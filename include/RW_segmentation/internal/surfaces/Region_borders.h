@@ -6,9 +6,9 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
-#include <RW_segmentation/internal/surfaces/Surface_growing.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
 

@@ -5,8 +5,8 @@
 
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Creases.h>
-#include <RW_segmentation/internal/surfaces/Surface_growing.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/walk/Graph_walk.h>
 

@@ -6,6 +6,7 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
@@ -23,14 +24,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// Faces that lie on one analytic surface each.
-struct Analytic_regions {
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-  std::vector<std::size_t> region_of_face;  ///< `none` for the remainder
-  std::vector<Analytic_surface> surfaces;   ///< of each region
-};
 
 /// Cuts a mesh into connected regions of faces that lie on one analytic surface each, and the remainder.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_ANALYTIC_REGIONS_H
-#define RW_SEGMENTATION_INTERNAL_SURFACES_ANALYTIC_REGIONS_H
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_FIND_ANALYTIC_REGIONS_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_FIND_ANALYTIC_REGIONS_H
 
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
@@ -60,8 +60,8 @@ inline double side_of_triangles(const Dual_mesh& mesh, double least, double most
 /// Noise of vertices hides the surfaces of a CAD kernel's large triangles, which have few of them, although their planes
 /// are known well: such triangles are cut into small ones for it, so that surfaces are weighed by their area. Where
 /// borders are, the faces themselves tell then: those that surfaces share belong to the one that holds all corners.
-inline Analytic_regions analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
-                                         const Progress& progress) {
+inline Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                              const Progress& progress) {
   constexpr double longest_side = 0.05;     // in parts of the diagonal
   constexpr double most_triangles = 20000;  // solids have 5000 or so
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
