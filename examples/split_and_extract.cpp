@@ -10,11 +10,18 @@
 #include <RW_segmentation/split_along_boundaries.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Face_filtered_graph.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
+
+#if __has_include(<CGAL/boost/graph/border.h>)  // CGAL 6.2 or newer
+#include <CGAL/boost/graph/border.h>
+using CGAL::extract_boundary_cycles;
+#else
+#include <CGAL/Polygon_mesh_processing/border.h>
+using CGAL::Polygon_mesh_processing::extract_boundary_cycles;
+#endif
 
 #include <cstddef>
 #include <exception>
@@ -46,7 +53,7 @@ int main(int argc, char** argv) {
       Mesh part;
       CGAL::copy_face_graph(selected, part);
       std::vector<Mesh::Halfedge_index> borders;  // one halfedge of each
-      CGAL::Polygon_mesh_processing::extract_boundary_cycles(part, std::back_inserter(borders));
+      extract_boundary_cycles(part, std::back_inserter(borders));
       std::cout << "segment " << s << ": " << part.number_of_faces() << " faces, " << borders.size() << " borders\n";
       if (argc == 3) {
         const auto path = std::filesystem::path(argv[2]) / ("segment_" + std::to_string(s) + ".off");
