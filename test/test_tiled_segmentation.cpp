@@ -164,22 +164,26 @@ TEST(TiledSegmentation, DoesNotDependOnTheOrderInWhichTilesAreDone) {
   };
   std::vector<Tile_border> borders(count);
   std::vector<Tile_noise> noises(count);
-  for (std::size_t t = count; t-- > 0;) borders[t] = border_of_tile(mesh.tiles[t], t, plan, noises[t]);
+  for (std::size_t t = count; t-- > 0;) borders[t] = border_of_tile(mesh.tiles[t], {t, plan}, noises[t]);
   std::vector<Tile_shape> shapes(count);
   std::vector<Tile_outline> outlines(count);
-  for (std::size_t t = count; t-- > 0;)
-    shapes[t] = shape_of_tile(mesh.tiles[t], t, plan, of_neighbours(borders, t), noise_of_tiles(noises), outlines[t]);
+  for (std::size_t t = count; t-- > 0;) {
+    Shaped_tile shaped = shape_of_tile(mesh.tiles[t], {t, plan}, of_neighbours(borders, t), noise_of_tiles(noises));
+    shapes[t] = shaped.shape;
+    outlines[t] = shaped.outline;
+  }
   const Tile_seeds seeds = seeds_of_tiles(plan, outlines);
   std::vector<Tile_clusters> clusters(count);
   std::vector<Tile_network> networks(count);
   for (std::size_t t = count; t-- > 0;)
-    clusters[t] = clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t]);
+    clusters[t] = clusters_of_tile(shapes[t], {t, plan}, borders[t], seeds, networks[t]);
   const Tile_walk walk = walk_over_tiles(plan, seeds, networks);
   std::vector<std::vector<Index>> fragments(count);
   std::vector<Tile_regions> regions(count);
   for (std::size_t t = count; t-- > 0;)
-    fragments[t] = fragments_of_tile(shapes[t], t, plan, clusters[t], seeds, of_neighbours(borders, t),
-                                     of_neighbours(networks, t), walk, regions[t]);
+    fragments[t] = fragments_of_tile(
+        {{t, plan}, shapes[t], clusters[t], of_neighbours(borders, t), of_neighbours(networks, t), seeds, walk},
+        regions[t]);
   const Merge_tree tree = merge_tiles(walk, regions);
 
   const Tiled_hierarchy in_order = hierarchy_of_tiles(mesh.tiles);
@@ -264,12 +268,11 @@ TEST(TiledSegmentation, NormalsOfATileAreThoseOfTheWhole) {
   std::vector<Tile_border> borders;
   std::vector<Tile_noise> noises(mesh.tiles.size());
   for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
-    borders.push_back(border_of_tile(mesh.tiles[t], t, plan, noises[t]));
+    borders.push_back(border_of_tile(mesh.tiles[t], {t, plan}, noises[t]));
   for (std::size_t t = 0; t < mesh.tiles.size(); ++t) {
     std::vector<Tile_border> neighbours;
     for (const auto n : plan.tiles[t].neighbours) neighbours.push_back(borders[n]);
-    Tile_outline outline;
-    const Tile_shape of_tile = shape_of_tile(mesh.tiles[t], t, plan, neighbours, noise_of_tiles(noises), outline);
+    const Tile_shape of_tile = shape_of_tile(mesh.tiles[t], {t, plan}, neighbours, noise_of_tiles(noises)).shape;
     EXPECT_GT(of_tile.halo.size(), 0U);
     for (std::size_t f = 0; f < mesh.place.size(); ++f) {
       if (mesh.place[f].first != t) continue;
@@ -292,14 +295,17 @@ TEST(TiledSegmentation, ThicknessIsMeasuredThroughOtherTiles) {
   std::vector<Tile_border> borders;
   std::vector<Tile_noise> noises(mesh.tiles.size());
   for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
-    borders.push_back(border_of_tile(mesh.tiles[t], t, plan, noises[t]));
-  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
-    shapes.push_back(shape_of_tile(mesh.tiles[t], t, plan, {}, {}, outlines[t], options));
+    borders.push_back(border_of_tile(mesh.tiles[t], {t, plan}, noises[t]));
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t) {
+    Shaped_tile shaped = shape_of_tile(mesh.tiles[t], {t, plan}, {}, {}, options);
+    shapes.push_back(shaped.shape);
+    outlines[t] = shaped.outline;
+  }
   const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options);
   EXPECT_NEAR(static_cast<double>(seeds.probes.size()), 500, 5);
   std::vector<Tile_network> networks(mesh.tiles.size());
   for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
-    clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t], options);
+    clusters_of_tile(shapes[t], {t, plan}, borders[t], seeds, networks[t], options);
   for (const double thickness : walk_over_tiles(plan, seeds, networks, options).thickness)
     EXPECT_NEAR(thickness * plan.box.unit, 2, 0.02);
 }
@@ -309,7 +315,7 @@ TEST(TiledSegmentation, NoiseIsThatOfTheWhole) {
   const auto noise_of = [](const std::vector<Tile>& tiles) {
     const Tile_plan plan = plan_tiles(surveys_of(tiles));
     std::vector<Tile_noise> noises(tiles.size());
-    for (std::size_t t = 0; t < tiles.size(); ++t) border_of_tile(tiles[t], t, plan, noises[t]);
+    for (std::size_t t = 0; t < tiles.size(); ++t) border_of_tile(tiles[t], {t, plan}, noises[t]);
     return noise_of_tiles(noises).turn;
   };
   const double whole = noise_of({as_tile(shape)});

@@ -147,14 +147,14 @@ TEST(SettleBand, OverTheWholeGraphItIsTheWalkFromTheSeeds) {
   const std::vector<std::size_t> walked = internal::walk_labels(graph, conductances, seeds, {0, 1, 2});
   std::vector<std::size_t> labels(graph.number_of_faces(), 7);
   for (std::size_t s = 0; s < seeds.size(); ++s) labels[seeds[s]] = s;
-  internal::settle_band(graph, conductances, std::vector<char>(graph.number_of_faces(), true), seeds, labels, {});
+  internal::settle_band(graph, conductances, {std::vector<char>(graph.number_of_faces(), true), seeds}, labels, {});
   EXPECT_EQ(labels, walked);
 }
 
 TEST(SettleBand, FacesOutsideAndPartsWithoutAnyKeepTheirLabels) {
   const Dual_graph graph(8, {{0, 1}, {1, 2}, {2, 3}, {4, 5}, {6, 7}});
   std::vector<std::size_t> labels = {0, 0, 1, 1, 2, 3, 4, 5};
-  internal::settle_band(graph, {1, 10, 1, 1, 1}, {false, true, true, true, true, true, false, false}, {}, labels, {});
+  internal::settle_band(graph, {1, 10, 1, 1, 1}, {{false, true, true, true, true, true, false, false}, {}}, labels, {});
   EXPECT_EQ(labels, (std::vector<std::size_t>{0, 0, 0, 0, 2, 3, 4, 5}));
 }
 

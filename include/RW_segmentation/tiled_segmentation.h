@@ -90,6 +90,12 @@ struct Tile_plan {
   std::vector<Of_tile> tiles;  ///< by tile
 };
 
+/// A tile by its place in a plan.
+struct Tile_in_plan {
+  std::size_t number;     ///< from 0
+  const Tile_plan& plan;  ///< of all tiles
+};
+
 /// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see.
 struct Tile_border {
   /// The id of a vertex that no other tile has.
@@ -133,7 +139,7 @@ struct Turn_sums {
 
 }  // namespace internal
 
-/// What `shape_of_tile()` returns and later steps of the same tile go on with. The largest of all: a `Dual_mesh` with normals.
+/// What `shape_of_tile()` makes and later steps of the same tile go on with. The largest of all: a `Dual_mesh` with normals.
 struct Tile_shape {
   /// A face of another tile.
   struct Halo_face {
@@ -164,6 +170,12 @@ struct Tile_outline {
   std::vector<internal::Side_value<double>> sides;     ///< lengths between nodes of different tiles
   std::vector<internal::Thickness_probe> probes;       ///< where the thickness is measured
   std::size_t turned_sides = 0;                        ///< sides between faces of which one must be turned inside out
+};
+
+/// What `shape_of_tile()` returns.
+struct Shaped_tile {
+  Tile_shape shape;      ///< for the tile itself
+  Tile_outline outline;  ///< for the step of all tiles
 };
 
 /// Seeds, and what is ordinary on the whole.
@@ -235,7 +247,7 @@ Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmen
 /// \param[out] noise what `noise_of_tiles()` needs
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
-Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan, Tile_noise& noise,
+Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
                            const Tiled_segmentation& options = {}, const Progress& progress = {});
 
 /// How noisy the whole is.
@@ -243,12 +255,11 @@ internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles);
 
 /// Joins a tile with its neighbours' borders, and smooths its normals.
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
-/// \param[out] outline what the next step needs
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
-Tile_shape shape_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
-                         const std::vector<Tile_border>& neighbours, const internal::Noise_of_mesh& noise,
-                         Tile_outline& outline, const Tiled_segmentation& options = {}, const Progress& progress = {});
+Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours,
+                          const internal::Noise_of_mesh& noise, const Tiled_segmentation& options = {},
+                          const Progress& progress = {});
 
 /// Places the seeds.
 /// \throws std::invalid_argument, Cancelled
@@ -260,25 +271,31 @@ Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>
 /// \param border of this tile
 /// \param[out] network what the next step needs
 /// Complexity: O(m log m) for m faces.
-Tile_clusters clusters_of_tile(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
-                               const Tile_border& border, const Tile_seeds& seeds, Tile_network& network,
-                               const Tiled_segmentation& options = {});
+Tile_clusters clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place, const Tile_border& border,
+                               const Tile_seeds& seeds, Tile_network& network, const Tiled_segmentation& options = {});
 
 /// Walks over the clusters of all tiles.
 /// \throws Cancelled
 Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const std::vector<Tile_network>& networks,
                           const Tiled_segmentation& options = {}, const Progress& progress = {});
 
+/// What `fragments_of_tile()` takes of the steps before it.
+struct Walked_tile {
+  Tile_in_plan place;
+  const Tile_shape& shape;                      ///< of the tile
+  const Tile_clusters& clusters;                ///< of the tile
+  const std::vector<Tile_border>& borders;      ///< of `plan.tiles[number].neighbours`, in their order
+  const std::vector<Tile_network>& neighbours;  ///< the networks of these
+  const Tile_seeds& seeds;                      ///< of all tiles
+  const Tile_walk& walk;                        ///< over all tiles
+};
+
 /// Walks once more over the faces along the boundaries of fragments, and sums up what merging asks for.
-/// \param neighbours the networks of `plan.tiles[number].neighbours`, in their order
 /// \param[out] regions what the next step needs
 /// \returns the fragment of each face of the tile
 /// \throws Cancelled
-std::vector<Dual_mesh::Index> fragments_of_tile(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
-                                                const Tile_clusters& clusters, const Tile_seeds& seeds,
-                                                const std::vector<Tile_border>& neighbour_borders,
-                                                const std::vector<Tile_network>& neighbours, const Tile_walk& walk,
-                                                Tile_regions& regions, const Progress& progress = {});
+std::vector<Dual_mesh::Index> fragments_of_tile(const Walked_tile& tile, Tile_regions& regions,
+                                                const Progress& progress = {});
 
 namespace internal {
 

@@ -195,7 +195,7 @@ class Tile_steps {
   void border(std::size_t tile) const {
     RW::Tile_noise noise;
     const auto border =
-        RW::border_of_tile(read<RW::Tile>("tile", tile), tile, read<RW::Tile_plan>("plan"), noise, method_);
+        RW::border_of_tile(read<RW::Tile>("tile", tile), {tile, read<RW::Tile_plan>("plan")}, noise, method_);
     write_step(path_of_tile("border", tile), "border", border);
     write_step(path_of_tile("noise", tile), "noise", noise);
   }
@@ -209,10 +209,9 @@ class Tile_steps {
     const auto plan = read<RW::Tile_plan>("plan");
     RW::internal::Noise_of_mesh noise;
     read_step(folder_ + "/noise_of_all", "noise_of_all", noise.turn, noise.smoother_turn);
-    RW::Tile_outline outline;
-    const RW::Tile_shape shape =
-        RW::shape_of_tile(read<RW::Tile>("tile", tile), tile, plan,
-                          read_neighbours<RW::Tile_border>("border", plan, tile), noise, outline, method_);
+    const auto [shape, outline] =
+        RW::shape_of_tile(read<RW::Tile>("tile", tile), {tile, plan},
+                          read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
     RW::internal::Face_corners corners;
     for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
       for (const auto v : shape.mesh.corners(f)) corners.add(v);
@@ -243,7 +242,7 @@ class Tile_steps {
     const auto plan = read<RW::Tile_plan>("plan");
     RW::Tile_network network;
     const auto clusters =
-        RW::clusters_of_tile(read_shape(plan, tile), tile, plan, read<RW::Tile_border>("border", tile),
+        RW::clusters_of_tile(read_shape(plan, tile), {tile, plan}, read<RW::Tile_border>("border", tile),
                              read<RW::Tile_seeds>("seeds"), network, method_);
     write_step(path_of_tile("clusters", tile), "clusters", clusters);
     write_step(path_of_tile("network", tile), "network", network);
@@ -258,10 +257,14 @@ class Tile_steps {
   void fragments(std::size_t tile) const {
     const auto plan = read<RW::Tile_plan>("plan");
     RW::Tile_regions regions;
-    const auto fragments = RW::fragments_of_tile(
-        read_shape(plan, tile), tile, plan, read<RW::Tile_clusters>("clusters", tile), read<RW::Tile_seeds>("seeds"),
-        read_neighbours<RW::Tile_border>("border", plan, tile),
-        read_neighbours<RW::Tile_network>("network", plan, tile), read<RW::Tile_walk>("walk"), regions);
+    const auto fragments = RW::fragments_of_tile({{tile, plan},
+                                                  read_shape(plan, tile),
+                                                  read<RW::Tile_clusters>("clusters", tile),
+                                                  read_neighbours<RW::Tile_border>("border", plan, tile),
+                                                  read_neighbours<RW::Tile_network>("network", plan, tile),
+                                                  read<RW::Tile_seeds>("seeds"),
+                                                  read<RW::Tile_walk>("walk")},
+                                                 regions);
     write_step(path_of_tile("fragments", tile), "fragments", fragments);
     write_step(path_of_tile("regions", tile), "regions", regions);
   }

@@ -28,26 +28,25 @@ struct Coarse_labels {
   std::vector<Dual_mesh::Index> seeds;  ///< faces
 };
 
-inline Coarse_labels coarse_labels(const Tile_shape& shape, std::size_t number, const Tile_plan& plan,
-                                   const Tile_clusters& clusters, const Tile_seeds& seeds,
-                                   const std::vector<Tile_border>& neighbour_borders,
-                                   const std::vector<Tile_network>& neighbours, const Tile_walk& walk) {
+inline Coarse_labels coarse_labels(const Walked_tile& walked) {
   using Index = Dual_mesh::Index;
+  const Tile_shape& shape = walked.shape;
+  const std::size_t number = walked.place.number;
   Coarse_labels labels;
   const auto append = [&](std::size_t tile, Index cluster) {
-    labels.fragment.push_back(walk.fragments[tile][cluster]);
-    labels.is_in_band.push_back(walk.bands[tile][cluster]);
+    labels.fragment.push_back(walked.walk.fragments[tile][cluster]);
+    labels.is_in_band.push_back(walked.walk.bands[tile][cluster]);
   };
-  for (const Index cluster : clusters) append(number, cluster);
-  labels.seeds = seeds_in(seeds, number);
+  for (const Index cluster : walked.clusters) append(number, cluster);
+  labels.seeds = seeds_in(walked.seeds, number);
   std::set<std::pair<Index, Index>> is_seed;
-  for (const auto& [tile, face] : seeds.seeds) is_seed.emplace(tile, face);
-  const std::vector<Index>& tiles = plan.tiles[number].neighbours;
+  for (const auto& [tile, face] : walked.seeds.seeds) is_seed.emplace(tile, face);
+  const std::vector<Index>& tiles = walked.place.plan.tiles[number].neighbours;
   for (std::size_t h = 0; h < shape.halo.size(); ++h) {
     const auto [tile, place] = shape.halo[h];
     const auto n = static_cast<std::size_t>(std::lower_bound(tiles.begin(), tiles.end(), tile) - tiles.begin());
-    append(tile, neighbours[n].border[place]);
-    if (is_seed.count({tile, neighbour_borders[n].faces[place]}) > 0)
+    append(tile, walked.neighbours[n].border[place]);
+    if (is_seed.count({tile, walked.borders[n].faces[place]}) > 0)
       labels.seeds.push_back(static_cast<Index>(shape.own_faces + h));
   }
   return labels;
@@ -97,17 +96,16 @@ inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const st
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(
-    const Tile_shape& shape, std::size_t number, const Tile_plan& plan, const Tile_clusters& clusters,
-    const Tile_seeds& seeds, const std::vector<Tile_border>& neighbour_borders,
-    const std::vector<Tile_network>& neighbours, const Tile_walk& walk, Tile_regions& regions,
-    const Progress& progress) {
-  internal::Coarse_labels labels =
-      internal::coarse_labels(shape, number, plan, clusters, seeds, neighbour_borders, neighbours, walk);
-  const std::vector<double> difference = internal::differences_of(shape.mesh, seeds.ordinary);
-  internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, difference), labels.is_in_band,
-                        labels.seeds, labels.fragment, progress);
-  const Learned_cost cost(shape.mesh, internal::thickness_in(shape, number, seeds, walk), seeds.ordinary);
+RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(const Walked_tile& tile, Tile_regions& regions,
+                                                                       const Progress& progress) {
+  const Tile_shape& shape = tile.shape;
+  const std::size_t number = tile.place.number;
+  internal::Coarse_labels labels = internal::coarse_labels(tile);
+  const std::vector<double> difference = internal::differences_of(shape.mesh, tile.seeds.ordinary);
+  internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, difference),
+                        {labels.is_in_band, labels.seeds}, labels.fragment, progress);
+  const Learned_cost cost(shape.mesh, internal::thickness_in(shape, number, tile.seeds, tile.walk),
+                          tile.seeds.ordinary);
   regions = internal::sum_up(shape, number, labels.fragment, cost, difference);
   const auto end_of_own = labels.fragment.begin() + static_cast<std::ptrdiff_t>(shape.own_faces);
   return {labels.fragment.begin(), end_of_own};
@@ -173,28 +171,31 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile
   std::vector<Tile_border> borders;
   std::vector<Tile_noise> noises(count);
   for (std::size_t t = 0; t < count; ++t)
-    borders.push_back(border_of_tile(tiles[t], t, plan, noises[t], options, part(0, 0.3, t)));
+    borders.push_back(border_of_tile(tiles[t], {t, plan}, noises[t], options, part(0, 0.3, t)));
   const internal::Noise_of_mesh noise = noise_of_tiles(noises);
   std::vector<Tile_shape> shapes;
   std::vector<Tile_outline> outlines(count);
-  for (std::size_t t = 0; t < count; ++t)
-    shapes.push_back(
-        shape_of_tile(tiles[t], t, plan, of_neighbours(borders, t), noise, outlines[t], options, part(0.3, 0.6, t)));
+  for (std::size_t t = 0; t < count; ++t) {
+    Shaped_tile shaped =
+        shape_of_tile(tiles[t], {t, plan}, of_neighbours(borders, t), noise, options, part(0.3, 0.6, t));
+    shapes.push_back(std::move(shaped.shape));
+    outlines[t] = std::move(shaped.outline);
+  }
   const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options, progress.part(0.6, 0.65));
   std::vector<Tile_clusters> clusters;
   std::vector<Tile_network> networks(count);
   for (std::size_t t = 0; t < count; ++t) {
     part(0.65, 0.75, t)(0);
-    clusters.push_back(clusters_of_tile(shapes[t], t, plan, borders[t], seeds, networks[t], options));
+    clusters.push_back(clusters_of_tile(shapes[t], {t, plan}, borders[t], seeds, networks[t], options));
   }
   const Tile_walk walk = walk_over_tiles(plan, seeds, networks, options, progress.part(0.75, 0.85));
 
   Tiled_hierarchy hierarchy;
   std::vector<Tile_regions> regions(count);
   for (std::size_t t = 0; t < count; ++t)
-    hierarchy.fragment_of_face.push_back(fragments_of_tile(shapes[t], t, plan, clusters[t], seeds,
-                                                           of_neighbours(borders, t), of_neighbours(networks, t), walk,
-                                                           regions[t], part(0.85, 0.95, t)));
+    hierarchy.fragment_of_face.push_back(fragments_of_tile(
+        {{t, plan}, shapes[t], clusters[t], of_neighbours(borders, t), of_neighbours(networks, t), seeds, walk},
+        regions[t], part(0.85, 0.95, t)));
   hierarchy.tree = merge_tiles(walk, regions, progress.part(0.95, 1));
   hierarchy.components = walk.components;
   hierarchy.clusters = walk.clusters;

@@ -118,9 +118,9 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_border border_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
-                                                  Tile_noise& noise, const Tiled_segmentation& options,
-                                                  const Progress& progress) {
+RW_SEGMENTATION_INLINE Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
+                                                  const Tiled_segmentation& options, const Progress& progress) {
+  const auto& [number, plan] = place;
   const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
   Tile_border border;
   double widening = 1;
@@ -357,11 +357,14 @@ inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std:
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_shape shape_of_tile(const Tile& tile, std::size_t number, const Tile_plan& plan,
-                                                const std::vector<Tile_border>& neighbours,
-                                                const internal::Noise_of_mesh& noise, Tile_outline& outline,
-                                                const Tiled_segmentation& options, const Progress& progress) {
-  Tile_shape shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(outline.turned_sides);
+RW_SEGMENTATION_INLINE Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place,
+                                                 const std::vector<Tile_border>& neighbours,
+                                                 const internal::Noise_of_mesh& noise,
+                                                 const Tiled_segmentation& options, const Progress& progress) {
+  const auto& [number, plan] = place;
+  Shaped_tile result;
+  auto& [shape, outline] = result;
+  shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(outline.turned_sides);
   shape.mesh = internal::shape_of_part(shape.mesh, options.smoothing, noise, progress.part(0, 0.8));
   const internal::Own_graph own(shape);
   outline.turns = internal::turn_sums(shape, own, number);
@@ -371,7 +374,7 @@ RW_SEGMENTATION_INLINE Tile_shape shape_of_tile(const Tile& tile, std::size_t nu
     outline.probes = internal::thickness_probes(shape.mesh, shape.own_faces, options.thickness.samples,
                                                 plan.tiles[number].area_before);
   progress(1);
-  return shape;
+  return result;
 }
 
 }  // namespace RW_segmentation

@@ -141,10 +141,10 @@ inline std::vector<Thickness_probe> probes_from(const Tile_seeds& seeds, std::si
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, std::size_t number,
-                                                      const Tile_plan& plan, const Tile_border& border,
-                                                      const Tile_seeds& seeds, Tile_network& network,
-                                                      const Tiled_segmentation& options) {
+RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place,
+                                                      const Tile_border& border, const Tile_seeds& seeds,
+                                                      Tile_network& network, const Tiled_segmentation& options) {
+  const auto& [number, plan] = place;
   internal::require_reduction_numbers(options.reduction);
   const internal::Own_graph own(shape);
   const std::vector<double> conductances =

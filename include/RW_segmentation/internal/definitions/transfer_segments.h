@@ -75,7 +75,7 @@ RW_SEGMENTATION_INLINE std::vector<std::size_t> transferred(const Dual_mesh& red
         faces_of_spurious_regions(regions_of(mesh, labels), mesh.areas(), labels,
                                   regions_of_labels(regions_of(reduced, reduced_labels), reduced_labels));
     for (const auto face : along) is_in_band[face] = true;
-    settle_band(mesh.graph(), conductances, is_in_band, cores_within(along, is_in_band, labels), labels,
+    settle_band(mesh.graph(), conductances, {is_in_band, cores_within(along, is_in_band, labels)}, labels,
                 progress.part(0.5, 1));
   }
   progress(1);

@@ -62,7 +62,7 @@ RW_SEGMENTATION_INLINE Fragments walk_fragments_over_clusters(
     fragments.of_face.push_back(coarse.of_face[cluster]);
     is_face_in_band.push_back(is_in_band[cluster]);
   }
-  settle_band(network.graph, network.conductances, is_face_in_band, seeds, fragments.of_face, progress.part(0.7, 1),
+  settle_band(network.graph, network.conductances, {is_face_in_band, seeds}, fragments.of_face, progress.part(0.7, 1),
               make_solver());
   return fragments;
 }

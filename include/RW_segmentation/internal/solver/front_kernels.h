@@ -387,8 +387,14 @@ void eliminate_in_parallel(const Front& front, Instruction_set set) {
   }
 }
 
-inline void select_largest(const double* potential, double rank, std::size_t count, double* largest, double* best,
-                           double* total, Instruction_set set) {
+/// By face, of the labels so far.
+struct Largest_so_far {
+  double *largest, *best, *total;
+};
+
+inline void select_largest(const double* potential, double rank, std::size_t count, const Largest_so_far& so_far,
+                           Instruction_set set) {
+  const auto [largest, best, total] = so_far;
 #ifdef RW_SEGMENTATION_X86_DISPATCH
   if (set == Instruction_set::avx512) return select_largest_avx512(potential, rank, count, largest, best, total);
   if (set == Instruction_set::avx2) return select_largest_avx2(potential, rank, count, largest, best, total);

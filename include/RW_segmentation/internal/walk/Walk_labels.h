@@ -132,7 +132,7 @@ inline bool Walk_labels::compare(const Walk_network& network, const std::vector<
           for (std::size_t i = 0; i < count; ++i) sum[i] += column[begin + i];
         potential = sum.data();
       }
-      select_largest(potential, static_cast<double>(l), count, &largest_[begin], best.data(), total.data(),
+      select_largest(potential, static_cast<double>(l), count, {&largest_[begin], best.data(), total.data()},
                      instructions);
     }
     for (std::size_t i = 0; i < count; ++i) {

@@ -32,16 +32,22 @@ inline std::vector<Dual_graph::Index> band_along_boundaries(const Dual_graph& gr
   return band;
 }
 
+/// Faces that are walked on once more.
+struct Face_band {
+  const std::vector<char>& contains;            ///< by face
+  const std::vector<Dual_graph::Index>& seeds;  ///< faces that keep their labels wherever they lie
+};
+
 /// Labels the faces of a band anew: walks from them end at the faces around the band, which keep their labels, and at
 /// the seeds. The walks run over the band alone.
 ///
-/// \param seeds faces that keep their labels wherever they lie
 /// \param labels of the faces; where a part of the band reaches neither, they stay as they are
 inline void settle_band(const Dual_graph& graph, const std::vector<double>& conductances,
-                        const std::vector<char>& is_in_band, const std::vector<Dual_graph::Index>& seeds,
-                        std::vector<std::size_t>& labels, const Progress& progress, Any_walk_solver solver = {}) {
+                        const Face_band& faces_of_band, std::vector<std::size_t>& labels, const Progress& progress,
+                        Any_walk_solver solver = {}) {
   using Index = Dual_graph::Index;
   constexpr Index none = std::numeric_limits<Index>::max();
+  const std::vector<char>& is_in_band = faces_of_band.contains;
   std::vector<Index> number(graph.number_of_faces(), none), faces;
   const auto number_of = [&](Index face) {
     if (number[face] == none) {
@@ -64,7 +70,7 @@ inline void settle_band(const Dual_graph& graph, const std::vector<double>& cond
 
   std::vector<char> keeps_label(faces.size());
   for (Index i = 0; i < faces.size(); ++i) keeps_label[i] = !is_in_band[faces[i]];
-  for (const Index seed : seeds)
+  for (const Index seed : faces_of_band.seeds)
     if (number[seed] != none) keeps_label[number[seed]] = true;
   std::vector<Index> absorbing;
   std::vector<std::size_t> absorbed_label;
