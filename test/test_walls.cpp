@@ -3,13 +3,16 @@
 // Constrained edges are walls: where they close round a part of a mesh, no segment lies on both sides, whatever the
 // policies. Walls here are the borders of random connected sets of faces.
 
+#include <RW_segmentation/Analytic_surface_cost.h>
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Curvature_difference.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/coarse_seeds.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/fragments_via_random_walks.h>
 #include <RW_segmentation/merge_segments.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
@@ -163,6 +166,14 @@ void expect_walls_hold(const M& mesh, const Walls<M>& walls, const Policies& pol
   EXPECT_EQ(faces_across(walls, ids.values()), 0u);
 }
 
+/// A cost that would join anything at once.
+struct No_cost {
+  struct Region {};
+  Region region(const Dual_mesh&, Index) const { return {}; }
+  void join(Region&, const Region&) const {}
+  double operator()(const Region&, const Region&, const Region_boundary&) const { return 0; }
+};
+
 std::vector<meshes::Shape> closed_shapes() {
   return {meshes::sphere(2), meshes::torus(1, 0.4, 24, 12), meshes::two_spheres_with_neck(2.4, 0.3, 20),
           meshes::l_shape(4), meshes::with_noise(meshes::two_spheres_with_neck(2.4, 0.3, 24), 0.05)};
@@ -288,7 +299,50 @@ TEST(WallsInOneCall, HoldForEverySeedingAndDifference) {
       2);
 }
 
+TEST(WallsInOneCall, HoldForEveryMergeCost) {
+  on_walled_meshes(
+      [](const Mesh& mesh, Walls<Mesh>& walls) {
+        const auto expect_walls_hold_by = [&](const auto& cost) {
+          expect_walls_hold(mesh, walls, Automatic_segmentation().with_merge_cost(cost));
+        };
+        expect_walls_hold_by(Size_aware_cost_policy());
+        expect_walls_hold_by(Relative_boundary_cost());
+        expect_walls_hold_by([](const Dual_mesh& shape) { return Analytic_surface_cost(shape); });
+        expect_walls_hold_by(No_cost());
+      },
+      2);
+}
+
+TEST(WallsInOneCall, HoldForAnotherSolver) {
+  on_walled_meshes(
+      [](const Mesh& mesh, Walls<Mesh>& walls) {
+        auto policies = Automatic_segmentation().with_solver(Eigen_walk_solver<>()).with_merge_cost(No_cost());
+        policies.cap = 10;  // within what Eigen's factorisation vouches for
+        for (const std::size_t largest_direct : {std::size_t(0), std::size_t(1000000)}) {
+          policies.reduction.largest_direct = largest_direct;
+          expect_walls_hold(mesh, walls, policies);
+        }
+      },
+      3);
+}
+
 // ---- Stage by stage ----
+
+TEST(WallsInStages, BoundFragments) {
+  on_walled_meshes([](const Mesh& mesh, Walls<Mesh>& walls) {
+    const auto np = CGAL::parameters::edge_is_constrained_map(walls.map());
+    const Conductance conductance(mesh, Dihedral_difference(mesh));
+    const std::vector seeds = {walls.random_face(), walls.random_face(), walls.random_face()};
+    for (const std::size_t largest_direct : {std::size_t(0), std::size_t(1000000)}) {
+      Walk_reduction reduction;
+      reduction.largest_direct = largest_direct;
+      Face_labels<Mesh> ids(mesh);
+      EXPECT_GE(fragments_via_random_walks(mesh, conductance, seeds, ids.map(), reduction, Star_mesh_elimination(), np),
+                walls.parts());
+      EXPECT_EQ(faces_across(walls, ids.values()), 0u);
+    }
+  });
+}
 
 TEST(WallsInStages, ShutWalksFromSeedsIn) {
   on_walled_meshes([](const Mesh& mesh, Walls<Mesh>& walls) {
