@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The surfaces of a machine part from a seed on each of them, across smooth joints, where curvatures differ.
 //
 //   curvature_seeds MESH FACE ...

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Parts of machines in two ways: into planes, cylinders, cones, spheres and tori, and by the paper's difference of
 // curvatures in the one call.
 //

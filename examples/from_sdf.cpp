@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A program that segments with CGAL's SDF package, and the same program with this one.
 //
 //   from_sdf MESH

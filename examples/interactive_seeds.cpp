@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // An editing session: seeds are added, removed and taken back, and each edit is answered at once.
 //
 //   interactive_seeds MESH < COMMANDS

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A mesh of OpenMesh; segment ids in a property of the mesh.
 //
 //   openmesh MESH

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A difference of one's own, in three ways: values stored in a property map, a lambda, and a class; and conductances of
 // one's own.
 //

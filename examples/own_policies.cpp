@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Policies of one's own in the one call: each in the place of one of the library's, then all of them together.
 //
 //   own_policies MESH

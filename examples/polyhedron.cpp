@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // CGAL's Polyhedron_3 as it comes, without ids in its faces; segment ids in a map of the standard library.
 //
 //   polyhedron MESH

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A segment for each seed, and the probabilities behind it.
 //
 //   seeds MESH FACE ...

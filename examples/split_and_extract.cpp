@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // One mesh for each segment, cut out along smooth boundaries.
 //
 //   split_and_extract MESH [FOLDER]

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The stages of the one call by hand: each can be left out, replaced, or looked at. The mesh is read once.
 //
 //   stages MESH
