@@ -5,6 +5,9 @@
 
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Curvature_difference.h>
+#include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Random_walk.h>
@@ -694,6 +697,26 @@ TEST(NamedParameters, MayFollowTheOutputOrThePolicies) {
   }
   segmentation_via_random_walks(mesh, ids.map(), CGAL::parameters::default_values());
   EXPECT_EQ(ids.values(), labels_of(mesh, Automatic_segmentation()));
+}
+
+TEST(NamedParameters, MayFollowTheMeshOrTheDifference) {
+  const Mesh mesh = some_mesh();
+  const auto squeezed = boost::make_function_property_map<Mesh::Vertex_index>([&](const Mesh::Vertex_index& v) {
+    const auto p = mesh.point(v);
+    return Mesh::Point(p.x(), 2 * p.y(), 0.5 * p.z());
+  });
+  const auto np = CGAL::parameters::vertex_point_map(squeezed);
+  const auto expect_equal = [&](const auto& shorter, const auto& longer) {
+    for (const auto e : mesh.edges()) {
+      if (mesh.is_border(e)) continue;
+      EXPECT_EQ(get(shorter, e), get(longer, e));
+    }
+  };
+  const Dihedral_difference difference(mesh, np);
+  expect_equal(difference, Dihedral_difference(mesh, Dihedral_difference_policy(), np));
+  EXPECT_NE(get(difference, Mesh::Edge_index(0)), get(Dihedral_difference(mesh), Mesh::Edge_index(0)));
+  expect_equal(Curvature_difference(mesh, np), Curvature_difference(mesh, Curvature_difference_policy().radius, np));
+  expect_equal(Conductance(mesh, difference, np), Conductance(mesh, difference, 1, 20, np));
 }
 
 TEST(ConcurrencyTag, DoesNotChangeTheResult) {

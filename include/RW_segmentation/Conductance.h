@@ -48,6 +48,9 @@ class Conductance : public internal::Shared_edge_values<FaceListGraph> {
   /// What functions that take conductances ask for, so that no difference is mistaken for one.
   using is_conductance = std::true_type;
 
+  static constexpr double usual_sigma = 1;  ///< the paper's value
+  static constexpr double usual_cap = 20;   ///< see the constructor
+
   /// Computes all conductances. Complexity: linear, plus one call of `get(difference, edge)` for each interior edge.
   ///
   /// \tparam Difference a readable property map from `edge_descriptor` to a number >= 0 (infinity included):
@@ -56,9 +59,9 @@ class Conductance : public internal::Shared_edge_values<FaceListGraph> {
   /// \tparam NamedParameters a sequence of CGAL's named parameters
   /// \param mesh the mesh; no reference to it is kept
   /// \param difference how different the two faces of an edge are, 1 on average
-  /// \param sigma the difference that divides the conductance by e, > 0; the paper's value is 1
+  /// \param sigma the difference that divides the conductance by e, > 0
   /// \param cap the largest exponent, > 0, infinity allowed. Under refinement the mean difference falls while creases
-  /// stay, so that d / sigma reaches thousands and conductances leave the range of a double. With the default, 20, they
+  /// stay, so that d / sigma reaches thousands and conductances leave the range of a double. With `usual_cap` they
   /// span at most nine decades for edges of one length; on 380 meshes of people's segmentations 99.91 % or more of the
   /// faces get the label of the uncapped walk (99.5 % with 10, 85 % to 98 % with 5). Exponents above 600 count as 600
   /// even if the cap is infinite: no conductance underflows.
@@ -67,12 +70,18 @@ class Conductance : public internal::Shared_edge_values<FaceListGraph> {
   /// \throws std::invalid_argument if `sigma` or `cap` is not positive, a difference negative or NaN (names the edge's
   /// faces), or a coordinate not finite (names the vertex)
   template <class Difference, class NamedParameters = CGAL::parameters::Default_named_parameters>
-  Conductance(const FaceListGraph& mesh, const Difference& difference, double sigma = 1, double cap = 20,
-              const NamedParameters& np = CGAL::parameters::default_values())
+  Conductance(const FaceListGraph& mesh, const Difference& difference, double sigma = usual_sigma,
+              double cap = usual_cap, const NamedParameters& np = CGAL::parameters::default_values())
       : Base(computed(internal::dual_mesh(mesh, np), difference, sigma, cap)) {
     static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained>,
                   "Conductance takes the named parameters vertex_point_map and edge_is_constrained_map.");
   }
+
+  /// By the usual numbers, with named parameters after the difference.
+  template <class Difference, class T, class Tag, class Parameters>
+  Conductance(const FaceListGraph& mesh, const Difference& difference,
+              const CGAL::Named_function_parameters<T, Tag, Parameters>& np)
+      : Conductance(mesh, difference, usual_sigma, usual_cap, np) {}
 
  private:
   using Base = internal::Shared_edge_values<FaceListGraph>;

@@ -104,6 +104,11 @@ class Curvature_difference : public internal::Shared_edge_values<FaceListGraph> 
                   "Curvature_difference takes the named parameters vertex_point_map and callback.");
   }
 
+  /// By balls of the usual radius, with named parameters after the mesh.
+  template <class T, class Tag, class Parameters>
+  Curvature_difference(const FaceListGraph& mesh, const CGAL::Named_function_parameters<T, Tag, Parameters>& np)
+      : Curvature_difference(mesh, Curvature_difference_policy().radius, np) {}
+
   /// The difference by given curvatures. Complexity: linear.
   ///
   /// \tparam CurvatureMap a readable property map from `face_descriptor` to `Surface_curvatures`

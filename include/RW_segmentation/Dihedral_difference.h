@@ -98,6 +98,11 @@ class Dihedral_difference : public internal::Shared_edge_values<FaceListGraph> {
                                const NamedParameters& np = CGAL::parameters::default_values())
       : Dihedral_difference(mesh, Dihedral_difference_policy{convex_weight, measure}, np) {}
 
+  /// By the paper's numbers, with named parameters after the mesh.
+  template <class T, class Tag, class Parameters>
+  Dihedral_difference(const FaceListGraph& mesh, const CGAL::Named_function_parameters<T, Tag, Parameters>& np)
+      : Dihedral_difference(mesh, Dihedral_difference_policy(), np) {}
+
   /// The difference by given normals, such as those of `smoothed_face_normals()`. Complexity: linear.
   ///
   /// \tparam FaceNormalMap a readable property map from `face_descriptor` to a vector with `operator[]`

@@ -7,6 +7,7 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/walk/Graph_walk.h>
 #include <RW_segmentation/internal/walk/make_solver.h>
@@ -14,6 +15,7 @@
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -93,9 +95,8 @@ class Random_walk {
     static_assert(internal::has_conductances<ConductanceMap>,
                   "Random_walk needs conductances: Conductance(mesh, difference), or as_conductance(map) for values of "
                   "your own.");
-    static_assert(
-        internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-        "Random_walk takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+    static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                  "Random_walk takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
   }
 
   /// As above, with the default solver.
@@ -248,6 +249,8 @@ Random_walk(const Mesh&, const ConductanceMap&, const Third& = Third(), const Na
 
 /// Segments a mesh by the walk from given seeds, once.
 ///
+/// \tparam Solver a model of `WalkSolver`
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph, ConductanceMap, SegmentIdMap as for `Random_walk`
 /// \tparam SeedRange a range of face descriptors, whose places are their labels, or of pairs of a face descriptor and a
 /// label; several faces may share a label
@@ -259,8 +262,9 @@ Random_walk(const Mesh&, const ConductanceMap&, const Third& = Third(), const Na
 /// \throws std::runtime_error if the solver fails
 /// \throws Cancelled
 /// Nothing is written when it throws.
-template <class Solver = Star_mesh_elimination, class FaceListGraph, class ConductanceMap, class SeedRange,
-          class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class Solver = Star_mesh_elimination, class ConcurrencyTag = CGAL::Parallel_if_available_tag,
+          class FaceListGraph, class ConductanceMap, class SeedRange, class SegmentIdMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const ConductanceMap& conductance,
                                     const SeedRange& seeds, SegmentIdMap segment_ids,
                                     const NamedParameters& np = CGAL::parameters::default_values()) {
@@ -286,16 +290,18 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
   std::size_t ids = 0;
   for (auto& entry : id_of_label) entry.second = ids++;
 
-  Random_walk<typename internal::Mesh_type<FaceListGraph>::type, Solver> walk(mesh, conductance, Solver(), np);
-  for (std::size_t s = 0; s < labelled.size(); ++s) {
-    const auto& [face, label] = labelled[s];
-    if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
-    if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
-      throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
-                                  " to a face that an earlier seed gives another label");
-    walk.add_seed(face, id_of_label[label]);
-  }
-  return walk.segment(segment_ids);
+  return internal::with_threads<ConcurrencyTag>([&] {
+    Random_walk<typename internal::Mesh_type<FaceListGraph>::type, Solver> walk(mesh, conductance, Solver(), np);
+    for (std::size_t s = 0; s < labelled.size(); ++s) {
+      const auto& [face, label] = labelled[s];
+      if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
+      if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
+        throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
+                                    " to a face that an earlier seed gives another label");
+      walk.add_seed(face, id_of_label[label]);
+    }
+    return walk.segment(segment_ids);
+  });
 }
 
 }  // namespace RW_segmentation

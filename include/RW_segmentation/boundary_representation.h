@@ -23,9 +23,11 @@
 #include <RW_segmentation/internal/brep/Shell_nesting.h>
 #include <RW_segmentation/internal/brep/kernel_errors.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
@@ -221,6 +223,7 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
 /// Complexity: the times of Open CASCADE for each face and edge, of which all are made again as long as one is refused; and
 /// a pass over all triangles for each cut of a patch.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to integers
 /// \tparam NamedParameters a sequence of CGAL's named parameters
@@ -237,7 +240,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
 /// not a positive number, or the mesh has two edges between the same vertices
 /// \throws std::runtime_error if Open CASCADE fails
 /// \throws Cancelled
-template <class FaceListGraph, class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 Boundary_representation boundary_representation(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                                                 const std::vector<Analytic_surface>& surfaces, double scale = 1,
                                                 const NamedParameters& np = CGAL::parameters::default_values()) {
@@ -245,15 +249,17 @@ Boundary_representation boundary_representation(const FaceListGraph& mesh, const
                 "segment_ids must be a readable property map from the mesh's face_descriptor to an integer.");
   static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Callback>,
                 "boundary_representation() takes the named parameters vertex_point_map and callback.");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  if (dual.number_of_faces() == 0) throw std::invalid_argument("the mesh has no faces");
-  if (!(scale > 0 && scale <= std::numeric_limits<double>::max()))
-    throw internal::argument_error("scale", scale, "larger than 0 and finite");
-  const std::vector<std::size_t> segment_of_face = dual.read_segments(segment_ids);
-  for (const std::size_t segment : segment_of_face)
-    if (segment >= surfaces.size())
-      throw internal::argument_error("a segment id", segment, "less than the number of surfaces");
-  return internal::boundary_representation(dual, segment_of_face, surfaces, scale, internal::progress_of(np));
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    if (dual.number_of_faces() == 0) throw std::invalid_argument("the mesh has no faces");
+    if (!(scale > 0 && scale <= std::numeric_limits<double>::max()))
+      throw internal::argument_error("scale", scale, "larger than 0 and finite");
+    const std::vector<std::size_t> segment_of_face = dual.read_segments(segment_ids);
+    for (const std::size_t segment : segment_of_face)
+      if (segment >= surfaces.size())
+        throw internal::argument_error("a segment id", segment, "less than the number of surfaces");
+    return internal::boundary_representation(dual, segment_of_face, surfaces, scale, internal::progress_of(np));
+  });
 }
 
 }  // namespace RW_segmentation

@@ -7,8 +7,10 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <Eigen/Core>
 
@@ -133,6 +135,7 @@ struct Coarse_seeding {
 /// A difference that sees convex edges, too, tells the parts of a shape apart best: the angle between smoothed normals
 /// with a convex weight of 0.5, even where the walk afterwards heeds concave edges alone.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 /// \tparam Difference a readable property map from `edge_descriptor` to a number >= 0: `Dihedral_difference`,
 /// `Curvature_difference`, a stored map, a lambda in a `boost::function_property_map`; it is asked once for each edge
@@ -153,20 +156,22 @@ struct Coarse_seeding {
 ///
 /// Complexity: a run of Dijkstra's algorithm a seed, warm-started: it visits the faces that come closer only, so that
 /// n faces and k seeds take O(n log n log k) on most meshes instead of O(k n log n), plus O(k n) comparisons.
-template <class FaceListGraph, class Difference, class SeedStopPredicate, class OutputIterator,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class Difference,
+          class SeedStopPredicate, class OutputIterator,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
 OutputIterator coarse_seeds(const FaceListGraph& mesh, const Difference& difference, const SeedStopPredicate& stop,
                             OutputIterator seeds, const NamedParameters& np = CGAL::parameters::default_values()) {
   static_assert(std::is_invocable_r_v<bool, const SeedStopPredicate&, const std::vector<double>&>,
                 "stop must be a function from std::vector<double>, the separations of the seeds, to bool.");
-  static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-      "coarse_seeds() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const Coarse_seeding<SeedStopPredicate> seeding{stop};
-  for (const auto f : seeding(dual, dual.read_edges(difference, "difference"), {}, internal::progress_of(np)))
-    *seeds++ = dual.face(f);
-  return seeds;
+  static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                "coarse_seeds() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const Coarse_seeding<SeedStopPredicate> seeding{stop};
+    for (const auto f : seeding(dual, dual.read_edges(difference, "difference"), {}, internal::progress_of(np)))
+      *seeds++ = dual.face(f);
+    return seeds;
+  });
 }
 
 }  // namespace RW_segmentation

@@ -8,9 +8,11 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/seeds/read_seeds.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <Eigen/Core>
 
@@ -85,6 +87,7 @@ struct Feature_sensitive_seeding {
 /// The user's own seeds are kept: sampling goes on from the `given` ones, and writes only what it adds. Seeds that the
 /// user adds afterwards need no word.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 /// \tparam FaceNormalMap a readable property map from `face_descriptor` to a vector with `operator[]`
 /// \tparam OutputIterator accepts `face_descriptor`
@@ -107,39 +110,61 @@ struct Feature_sensitive_seeding {
 ///
 /// Complexity with `Farthest_point_sampling`, for n faces and k seeds: about O(n log k) for the paths and k n
 /// comparisons; 40 seeds take some 3 ms on 20K faces, 0.2 s on 640K.
-template <class FaceListGraph, class FaceNormalMap, class OutputIterator,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class FaceNormalMap,
+          class OutputIterator,
           class SeedRange = std::array<typename boost::graph_traits<FaceListGraph>::face_descriptor, 0>,
           class Sampling = Farthest_point_sampling, class NamedParameters = CGAL::parameters::Default_named_parameters>
 OutputIterator feature_sensitive_seeds(const FaceListGraph& mesh, const FaceNormalMap& normals, std::size_t count,
                                        OutputIterator seeds, const SeedRange& given = {},
                                        const Sampling& sampling = Sampling(),
                                        const NamedParameters& np = CGAL::parameters::default_values()) {
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const Dual_mesh_of shape(dual.with_shape_normals(dual.read_normals(normals)), dual);
-  return feature_sensitive_seeds(shape, count, seeds, given, sampling, internal::only_callback(np));
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const Dual_mesh_of shape(dual.with_shape_normals(dual.read_normals(normals)), dual);
+    return feature_sensitive_seeds<ConcurrencyTag>(shape, count, seeds, given, sampling, internal::only_callback(np));
+  });
 }
 
 /// As above, with the normals of the shape: the faces' own, or those of `smoothed_shape()`.
-template <class FaceListGraph, class OutputIterator,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class OutputIterator,
           class SeedRange = std::array<typename boost::graph_traits<FaceListGraph>::face_descriptor, 0>,
           class Sampling = Farthest_point_sampling, class NamedParameters = CGAL::parameters::Default_named_parameters>
 OutputIterator feature_sensitive_seeds(const FaceListGraph& mesh, std::size_t count, OutputIterator seeds,
                                        const SeedRange& given = {}, const Sampling& sampling = Sampling(),
                                        const NamedParameters& np = CGAL::parameters::default_values()) {
-  static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-      "feature_sensitive_seeds() takes the named parameters vertex_point_map, edge_is_constrained_map and "
-      "callback.");
+  static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                "feature_sensitive_seeds() takes the named parameters vertex_point_map, edge_is_constrained_map and "
+                "callback.");
   if (count == 0) throw internal::argument_error("count", count, "at least 1");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const std::vector<Dual_mesh::Index> given_faces = internal::read_seeds(dual, given);
-  if (dual.number_of_faces() == 0) return seeds;
-  const std::size_t free_faces = dual.number_of_faces() - given_faces.size();
-  if (count > free_faces)
-    throw internal::argument_error("count", count,
-                                   ("at most " + std::to_string(free_faces) + ", the faces not given").c_str());
-  for (const auto face : sampling(dual, given_faces, count, internal::progress_of(np))) *seeds++ = dual.face(face);
-  return seeds;
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const std::vector<Dual_mesh::Index> given_faces = internal::read_seeds(dual, given);
+    if (dual.number_of_faces() == 0) return seeds;
+    const std::size_t free_faces = dual.number_of_faces() - given_faces.size();
+    if (count > free_faces)
+      throw internal::argument_error("count", count,
+                                     ("at most " + std::to_string(free_faces) + ", the faces not given").c_str());
+    for (const auto face : sampling(dual, given_faces, count, internal::progress_of(np))) *seeds++ = dual.face(face);
+    return seeds;
+  });
+}
+
+/// As above, with named parameters after the output.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class FaceNormalMap,
+          class OutputIterator, class T, class Tag, class Base>
+OutputIterator feature_sensitive_seeds(const FaceListGraph& mesh, const FaceNormalMap& normals, std::size_t count,
+                                       OutputIterator seeds, const CGAL::Named_function_parameters<T, Tag, Base>& np) {
+  return feature_sensitive_seeds<ConcurrencyTag>(mesh, normals, count, seeds, internal::no_seeds<FaceListGraph>,
+                                                 Farthest_point_sampling(), np);
+}
+
+/// \overload
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class OutputIterator, class T,
+          class Tag, class Base>
+OutputIterator feature_sensitive_seeds(const FaceListGraph& mesh, std::size_t count, OutputIterator seeds,
+                                       const CGAL::Named_function_parameters<T, Tag, Base>& np) {
+  return feature_sensitive_seeds<ConcurrencyTag>(mesh, count, seeds, internal::no_seeds<FaceListGraph>,
+                                                 Farthest_point_sampling(), np);
 }
 
 }  // namespace RW_segmentation

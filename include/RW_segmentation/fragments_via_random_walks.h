@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,10 +72,9 @@ std::size_t fragments_via_random_walks(const FaceListGraph& mesh, const Conducta
       internal::has_conductances<ConductanceMap>,
       "fragments_via_random_walks() needs conductances: Conductance(mesh, difference), or as_conductance(map) "
       "for values of your own.");
-  static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-      "fragments_via_random_walks() takes the named parameters vertex_point_map, edge_is_constrained_map and "
-      "callback.");
+  static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                "fragments_via_random_walks() takes the named parameters vertex_point_map, edge_is_constrained_map and "
+                "callback.");
   using Id = typename boost::property_traits<FragmentIdMap>::value_type;
   internal::require_reduction_numbers(reduction);
   return internal::with_threads<ConcurrencyTag>([&]() -> std::size_t {
@@ -103,6 +103,16 @@ std::size_t fragments_via_random_walks(const FaceListGraph& mesh, const Conducta
     dual.write_faces(std::vector<Id>(fragment.begin(), fragment.end()), fragment_ids);
     return count;
   });
+}
+
+/// As above, with named parameters after the output.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class ConductanceMap,
+          class SeedRange, class FragmentIdMap, class NamedParameters,
+          std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+std::size_t fragments_via_random_walks(const FaceListGraph& mesh, const ConductanceMap& conductance,
+                                       const SeedRange& seeds, FragmentIdMap fragment_ids, const NamedParameters& np) {
+  return fragments_via_random_walks<ConcurrencyTag>(mesh, conductance, seeds, fragment_ids, Walk_reduction(),
+                                                    Star_mesh_elimination(), np);
 }
 
 }  // namespace RW_segmentation

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -109,24 +110,26 @@ std::vector<Curvature_report> integral_invariant_curvatures(
   static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Callback>,
                 "integral_invariant_curvatures() takes the named parameters vertex_point_map and callback.");
 
-  const auto& dual = internal::dual_mesh(mesh, np);
-  std::vector<double> lengths;
-  for (const Ball_radius& radius : radii) lengths.push_back(internal::length_of(radius, dual));
-  std::vector<Curvature_report> reports;
-  const auto measured =
-      internal::curvatures_of_faces<ConcurrencyTag>(dual, lengths, reports, internal::progress_of(np));
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const CurvatureMap& map = curvatures[i];
-    for (std::size_t f = 0; f < measured[i].size(); ++f) {
-      Surface_curvatures value = measured[i][f];
-      value.max_curvature /= dual.unit();
-      value.min_curvature /= dual.unit();
-      value.mean_curvature_by_volume /= dual.unit();
-      value.offset *= dual.unit();
-      put(map, dual.face_descriptors()[f], value);
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    std::vector<double> lengths;
+    for (const Ball_radius& radius : radii) lengths.push_back(internal::length_of(radius, dual));
+    std::vector<Curvature_report> reports;
+    const auto measured =
+        internal::curvatures_of_faces<ConcurrencyTag>(dual, lengths, reports, internal::progress_of(np));
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      const CurvatureMap& map = curvatures[i];
+      for (std::size_t f = 0; f < measured[i].size(); ++f) {
+        Surface_curvatures value = measured[i][f];
+        value.max_curvature /= dual.unit();
+        value.min_curvature /= dual.unit();
+        value.mean_curvature_by_volume /= dual.unit();
+        value.offset *= dual.unit();
+        put(map, dual.face_descriptors()[f], value);
+      }
     }
-  }
-  return reports;
+    return reports;
+  });
 }
 
 /// Measures how the surface bends at the centre of each face, by integral invariants: principal curvatures and
@@ -162,6 +165,14 @@ Curvature_report integral_invariant_curvatures(const FaceListGraph& mesh, Curvat
   return integral_invariant_curvatures<ConcurrencyTag>(mesh, std::vector<CurvatureMap>{curvatures},
                                                        std::vector<Ball_radius>{radius}, np)
       .front();
+}
+
+/// As above, with named parameters after the output.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class CurvatureMap,
+          class NamedParameters, std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+Curvature_report integral_invariant_curvatures(const FaceListGraph& mesh, CurvatureMap curvatures,
+                                               const NamedParameters& np) {
+  return integral_invariant_curvatures<ConcurrencyTag>(mesh, curvatures, Ball_radius::in_edge_lengths(3), np);
 }
 
 }  // namespace RW_segmentation

@@ -97,6 +97,7 @@ std::vector<double> thickness_by_face(const Dual_mesh& mesh, const Thickness_of_
 ///
 /// Complexity: O(m log m) for m faces, and O(log m) for each ray in general.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
 /// \tparam ThicknessMap a writable property map from `face_descriptor` to `double`
 /// \tparam NamedParameters a sequence of CGAL's named parameters
@@ -108,7 +109,8 @@ std::vector<double> thickness_by_face(const Dual_mesh& mesh, const Thickness_of_
 /// which no ray leaves the solid
 /// \throws std::invalid_argument if there are no rays, the angle is out of range, or a coordinate is not finite
 /// \throws Cancelled
-template <class FaceListGraph, class ThicknessMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class ThicknessMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 std::size_t local_thickness(const FaceListGraph& mesh, ThicknessMap thickness, const Thickness_sampling& sampling = {},
                             const NamedParameters& np = CGAL::parameters::default_values()) {
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
@@ -116,21 +118,23 @@ std::size_t local_thickness(const FaceListGraph& mesh, ThicknessMap thickness, c
                 "thickness must be a writable property map from the mesh's face_descriptor to double.");
   static_assert(internal::has_only<NamedParameters, internal::Vertex_point, internal::Callback>,
                 "local_thickness() takes the named parameters vertex_point_map and callback.");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const std::vector<double> measured = internal::thickness_of_faces(dual, sampling, internal::progress_of(np));
-  std::size_t faces_measured = 0;
-  for (std::size_t f = 0; f < measured.size(); ++f) {
-    faces_measured += measured[f] > 0;
-    put(thickness, dual.face_descriptors()[f], measured[f] * dual.unit());
-  }
-  return faces_measured;
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const std::vector<double> measured = internal::thickness_of_faces(dual, sampling, internal::progress_of(np));
+    std::size_t faces_measured = 0;
+    for (std::size_t f = 0; f < measured.size(); ++f) {
+      faces_measured += measured[f] > 0;
+      put(thickness, dual.face_descriptors()[f], measured[f] * dual.unit());
+    }
+    return faces_measured;
+  });
 }
 
 /// As above, with named parameters after the output.
-template <class FaceListGraph, class ThicknessMap, class NamedParameters,
-          std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class ThicknessMap,
+          class NamedParameters, std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
 std::size_t local_thickness(const FaceListGraph& mesh, ThicknessMap thickness, const NamedParameters& np) {
-  return local_thickness(mesh, thickness, Thickness_sampling(), np);
+  return local_thickness<ConcurrencyTag>(mesh, thickness, Thickness_sampling(), np);
 }
 
 /// Measures how thick the solid inside a mesh is below every face, as the shape diameter function does: the mean length,
@@ -170,7 +174,7 @@ Thickness_report thickness_of_all_faces(const FaceListGraph& mesh, ThicknessMap 
   static_assert(internal::is_writable_map<ThicknessMap, face_descriptor>,
                 "thickness must be a writable property map from the mesh's face_descriptor to double.");
   static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      internal::has_only_names_of_stages<NamedParameters>,
       "thickness_of_all_faces() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
   return internal::with_threads<ConcurrencyTag>([&] {
     Thickness_report report;

@@ -10,10 +10,12 @@
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/rank_labels.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -40,6 +42,7 @@ namespace RW_segmentation {
 /// Complexity: O(m + b log b) for m faces and b edges between segments, and O(k log n) for each merge of two segments
 /// with k neighbours out of n.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to any integers; it may hold them with gaps
 /// \tparam Difference a readable property map from `edge_descriptor` to a number >= 0, as for `Conductance`
@@ -58,7 +61,8 @@ namespace RW_segmentation {
 /// \throws std::invalid_argument if a difference is negative or NaN (names the faces), a coordinate not finite (names
 /// the vertex), or a cost NaN
 /// \throws Cancelled
-template <class FaceListGraph, class SegmentIdMap, class Difference, class MergeCost = Size_aware_cost,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
+          class Difference, class MergeCost = Size_aware_cost,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
 Segment_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> merge_segments(
     const FaceListGraph& mesh, const SegmentIdMap& segment_ids, const Difference& difference,
@@ -70,25 +74,28 @@ Segment_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> merge_segme
       internal::is_merge_cost<MergeCost, Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type>>,
       "cost must be a model of MergeCost: a type Region, and the functions region(), join() and operator(), all of "
       "them const.");
-  static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-      "merge_segments() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                "merge_segments() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
 
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const std::vector<double> differences = dual.read_edges(difference, "the difference");
-  const auto ids = dual.read_faces(segment_ids, [](const auto& id) { return id; });
-  std::vector<std::size_t> fragment_of_face;
-  const std::size_t fragments = internal::rank_labels(ids, fragment_of_face).size();
-  Merge_tree tree =
-      internal::merge_fragments(dual, fragment_of_face, fragments, differences, cost, internal::progress_of(np));
-  return {std::move(tree), dual.face_descriptors(), std::move(fragment_of_face)};
+  using Hierarchy = Segment_hierarchy<typename internal::Mesh_type<FaceListGraph>::type>;
+  return internal::with_threads<ConcurrencyTag>([&]() -> Hierarchy {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const std::vector<double> differences = dual.read_edges(difference, "the difference");
+    const auto ids = dual.read_faces(segment_ids, [](const auto& id) { return id; });
+    std::vector<std::size_t> fragment_of_face;
+    const std::size_t fragments = internal::rank_labels(ids, fragment_of_face).size();
+    Merge_tree tree =
+        internal::merge_fragments(dual, fragment_of_face, fragments, differences, cost, internal::progress_of(np));
+    return {std::move(tree), dual.face_descriptors(), std::move(fragment_of_face)};
+  });
 }
 
 /// As above, by `Size_aware_cost` without thickness, with named parameters after the difference.
-template <class FaceListGraph, class SegmentIdMap, class Difference, class T, class Tag, class Base>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
+          class Difference, class T, class Tag, class Base>
 auto merge_segments(const FaceListGraph& mesh, const SegmentIdMap& segment_ids, const Difference& difference,
                     const CGAL::Named_function_parameters<T, Tag, Base>& np) {
-  return merge_segments(mesh, segment_ids, difference, Size_aware_cost(), np);
+  return merge_segments<ConcurrencyTag>(mesh, segment_ids, difference, Size_aware_cost(), np);
 }
 
 }  // namespace RW_segmentation

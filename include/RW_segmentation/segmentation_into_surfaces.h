@@ -67,7 +67,7 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
     const FaceListGraph& mesh, const Surface_segmentation& numbers = Surface_segmentation(),
     const NamedParameters& np = CGAL::parameters::default_values()) {
   static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      internal::has_only_names_of_stages<NamedParameters>,
       "Segmentation into surfaces takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
   using Hierarchy = Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type>;
   return internal::with_threads<ConcurrencyTag>([&]() -> Hierarchy {

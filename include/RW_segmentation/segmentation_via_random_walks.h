@@ -129,7 +129,7 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
       "Segmentation_policies are needed here, such as Automatic_segmentation(6) for six segments, or CGAL's named "
       "parameters.");
   static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      internal::has_only_names_of_stages<NamedParameters>,
       "Segmentation via random walks takes the named parameters vertex_point_map, edge_is_constrained_map and "
       "callback.");
   internal::require_reduction_numbers(policies.reduction);

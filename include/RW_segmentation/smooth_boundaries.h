@@ -12,11 +12,13 @@
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/boundary/Walled_surface.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/number_utils.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -135,6 +137,7 @@ struct Traced_joining {
 ///
 /// Complexity: O(m) for the normals of m faces, and O(k b) for k steps on b boundary edges.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, all faces triangles, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to an integer
 /// \tparam Joining `Traced_joining` or `Geodesic_joining`
@@ -149,45 +152,49 @@ struct Traced_joining {
 /// \throws std::invalid_argument if a face is no triangle, a coordinate is not finite, or a number of the policy is out
 /// of range
 /// \throws Cancelled
-template <class FaceListGraph, class SegmentIdMap, class Joining = Traced_joining,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
+          class Joining = Traced_joining, class NamedParameters = CGAL::parameters::Default_named_parameters>
 auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                        const Boundary_smoothing& smoothing = {}, const Joining& joining = {},
                        const NamedParameters& np = CGAL::parameters::default_values()) {
   static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      internal::has_only_names_of_stages<NamedParameters>,
       "smooth_boundaries() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
   static_assert(std::is_constructible_v<internal::Curve_joining, const Joining&>,
                 "joining must be a Traced_joining or a Geodesic_joining.");
   internal::require_boundary_smoothing_numbers(smoothing);
-  const Progress progress = internal::progress_of(np);
-  const auto& dual = internal::dual_mesh(mesh, np);
-  internal::require_triangles(dual);
-  const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
-  const internal::Walled_surface surface(dual);
-  const std::vector<internal::Surface_curve> curves =
-      internal::smoothed_curves(dual, surface, segment_of_face, smoothing, joining, progress);
-  using Mesh = typename internal::Mesh_type<FaceListGraph>::type;
-  using Vertex_points = typename CGAL::GetVertexPointMap<Mesh, NamedParameters>::const_type;
-  using Point = typename boost::property_traits<Vertex_points>::value_type;
-  const auto source_point = internal::source_points(mesh, dual, np);
-  auto result = internal::boundary_curves<Point>(curves, dual, surface.whole(), source_point);
-  progress(1);
-  return result;
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const Progress progress = internal::progress_of(np);
+    const auto& dual = internal::dual_mesh(mesh, np);
+    internal::require_triangles(dual);
+    const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
+    const internal::Walled_surface surface(dual);
+    const std::vector<internal::Surface_curve> curves =
+        internal::smoothed_curves(dual, surface, segment_of_face, smoothing, joining, progress);
+    using Mesh = typename internal::Mesh_type<FaceListGraph>::type;
+    using Vertex_points = typename CGAL::GetVertexPointMap<Mesh, NamedParameters>::const_type;
+    using Point = typename boost::property_traits<Vertex_points>::value_type;
+    const auto source_point = internal::source_points(mesh, dual, np);
+    auto result = internal::boundary_curves<Point>(curves, dual, surface.whole(), source_point);
+    progress(1);
+    return result;
+  });
 }
 
 /// Named parameters may follow the numbers directly.
-template <class FaceListGraph, class SegmentIdMap, class T, class Tag, class Base>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap, class T,
+          class Tag, class Base>
 auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids, const Boundary_smoothing& smoothing,
                        const CGAL::Named_function_parameters<T, Tag, Base>& np) {
-  return smooth_boundaries(mesh, segment_ids, smoothing, Traced_joining(), np);
+  return smooth_boundaries<ConcurrencyTag>(mesh, segment_ids, smoothing, Traced_joining(), np);
 }
 
 /// Named parameters may follow the segments directly.
-template <class FaceListGraph, class SegmentIdMap, class T, class Tag, class Base>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap, class T,
+          class Tag, class Base>
 auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                        const CGAL::Named_function_parameters<T, Tag, Base>& np) {
-  return smooth_boundaries(mesh, segment_ids, Boundary_smoothing(), Traced_joining(), np);
+  return smooth_boundaries<ConcurrencyTag>(mesh, segment_ids, Boundary_smoothing(), Traced_joining(), np);
 }
 
 }  // namespace RW_segmentation

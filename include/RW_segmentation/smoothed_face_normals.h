@@ -6,14 +6,17 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace RW_segmentation {
@@ -66,6 +69,7 @@ Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing, con
 /// The shape that a mesh stands for, as the automatic segmentation sees it: its `shape_normals()` are smoothed, and under
 /// heavy noise its points as well. What `smoothed_face_normals()` writes, as a mesh for the stages that follow.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam NamedParameters a sequence of CGAL's named parameters
 /// \param mesh the mesh, which does not change
@@ -77,15 +81,25 @@ Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing, con
 /// vertex)
 ///
 /// Complexity: a few dozen passes over the faces.
-template <class FaceListGraph, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type> smoothed_shape(
     const FaceListGraph& mesh, const Normal_smoothing& smoothing = {},
     const NamedParameters& np = CGAL::parameters::default_values()) {
-  static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
-      "smoothed_shape() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  return {internal::shape_of(dual, smoothing, internal::progress_of(np)), dual};
+  static_assert(internal::has_only_names_of_stages<NamedParameters>,
+                "smoothed_shape() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
+  using Shape = Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type>;
+  return internal::with_threads<ConcurrencyTag>([&]() -> Shape {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    return {internal::shape_of(dual, smoothing, internal::progress_of(np)), dual};
+  });
+}
+
+/// As above, with named parameters after the mesh.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class NamedParameters,
+          std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+auto smoothed_shape(const FaceListGraph& mesh, const NamedParameters& np) {
+  return smoothed_shape<ConcurrencyTag>(mesh, Normal_smoothing(), np);
 }
 
 /// Writes the normals of the faces after one implicit step of diffusion over the surface, so that they tell the shape
@@ -98,6 +112,7 @@ Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type> smoothed_shape(
 /// each moved four times half-way to the mean of its neighbours (see `Normal_smoothing`). Faces without area get the normal of
 /// their surroundings, and the zero vector if they have none.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph` with faces of any degree
 /// \tparam FaceNormalMap a writable property map from `face_descriptor` to a vector that can be made of three `double`s
 /// \tparam NamedParameters a sequence of CGAL's named parameters
@@ -110,7 +125,8 @@ Dual_mesh_of<typename internal::Mesh_type<FaceListGraph>::type> smoothed_shape(
 /// vertex); nothing is written then
 ///
 /// Complexity: a few dozen passes over the faces.
-template <class FaceListGraph, class FaceNormalMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class FaceNormalMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 void smoothed_face_normals(const FaceListGraph& mesh, FaceNormalMap normals, const Normal_smoothing& smoothing = {},
                            const NamedParameters& np = CGAL::parameters::default_values()) {
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
@@ -118,11 +134,18 @@ void smoothed_face_normals(const FaceListGraph& mesh, FaceNormalMap normals, con
                 "A writable property map from the mesh's face_descriptor to a vector is needed here.");
   using Vector = typename boost::property_traits<FaceNormalMap>::value_type;
 
-  const auto shape = smoothed_shape(mesh, smoothing, np);
+  const auto shape = smoothed_shape<ConcurrencyTag>(mesh, smoothing, np);
   for (std::size_t f = 0; f < shape.number_of_faces(); ++f) {
     const Eigen::Vector3d& n = shape.shape_normals()[f];
     put(normals, shape.face_descriptors()[f], Vector(n[0], n[1], n[2]));
   }
+}
+
+/// As above, with named parameters after the output.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class FaceNormalMap,
+          class NamedParameters, std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+void smoothed_face_normals(const FaceListGraph& mesh, FaceNormalMap normals, const NamedParameters& np) {
+  smoothed_face_normals<ConcurrencyTag>(mesh, normals, Normal_smoothing(), np);
 }
 
 }  // namespace RW_segmentation

@@ -9,12 +9,14 @@
 #include <RW_segmentation/internal/boundary/Surface_refinement.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/property_map.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -280,6 +282,7 @@ class Refinement_step {
 ///
 /// Complexity: O(m) for m faces, and O(n^3) for each face that n - 3 new vertices lie on, few as a rule.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam TriangleMesh a model of CGAL's `FaceListGraph` and `MutableFaceGraph`, all faces triangles
 /// \tparam SegmentIdMap a read-write property map from `face_descriptor` to an integer; it is written for new faces, too
 /// \tparam NamedParameters a sequence of CGAL's named parameters
@@ -297,7 +300,8 @@ class Refinement_step {
 /// \throws std::invalid_argument if a face is no triangle, a coordinate is not finite, a point of a curve is not on the
 /// mesh, two consecutive ones do not belong to one face, curves cross or touch, a new triangle would be lower than a
 /// millionth of the mean edge length, or the curves do not bound the segments; nothing is changed then
-template <class TriangleMesh, class Point = internal::Mesh_point<TriangleMesh>, class SegmentIdMap,
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh,
+          class Point = internal::Mesh_point<TriangleMesh>, class SegmentIdMap,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
 Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Boundary_curve<TriangleMesh, Point>>& curves,
                                     SegmentIdMap segment_ids,
@@ -315,7 +319,8 @@ Split_report split_along_boundaries(TriangleMesh& mesh, const std::vector<Bounda
 
   const auto points = choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
                                        CGAL::get_property_map(CGAL::vertex_point, mesh));
-  const Dual_mesh_of<TriangleMesh> dual(mesh, CGAL::parameters::vertex_point_map(points));
+  const auto dual = internal::with_threads<ConcurrencyTag>(
+      [&] { return Dual_mesh_of<TriangleMesh>(mesh, CGAL::parameters::vertex_point_map(points)); });
   internal::require_triangles(dual);
   const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
   const internal::Triangle_surface surface(dual);

@@ -20,6 +20,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,8 @@ namespace internal {
 std::vector<std::size_t> transferred(const Dual_mesh& reduced, const std::vector<std::size_t>& reduced_ids,
                                      const Dual_mesh& mesh, const std::vector<double>& conductances, std::size_t band,
                                      const Progress& progress);
+
+constexpr std::size_t usual_transfer_band = 6;  // faces
 
 }  // namespace internal
 
@@ -73,7 +76,8 @@ template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class ReducedM
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class ReducedNamedParameters = CGAL::parameters::Default_named_parameters>
 std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& reduced_ids, const FaceListGraph& mesh,
-                              const ConductanceMap& conductance, SegmentIdMap segment_ids, std::size_t band = 6,
+                              const ConductanceMap& conductance, SegmentIdMap segment_ids,
+                              std::size_t band = internal::usual_transfer_band,
                               const NamedParameters& np = CGAL::parameters::default_values(),
                               const ReducedNamedParameters& reduced_np = CGAL::parameters::default_values()) {
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
@@ -86,7 +90,7 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
                 "transfer_segments() needs conductances: Conductance(mesh, difference), or as_conductance(map) for "
                 "values of your own.");
   static_assert(
-      internal::has_only<NamedParameters, internal::Vertex_point, internal::Edge_is_constrained, internal::Callback>,
+      internal::has_only_names_of_stages<NamedParameters>,
       "transfer_segments() takes the named parameters vertex_point_map, edge_is_constrained_map and callback.");
   static_assert(internal::has_only<ReducedNamedParameters, internal::Vertex_point, internal::Edge_is_constrained>,
                 "transfer_segments() takes the named parameters vertex_point_map and edge_is_constrained_map of the "
@@ -104,6 +108,16 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
     full.write_faces(std::vector<Id>(transferred.begin(), transferred.end()), segment_ids);
     return segments;
   });
+}
+
+/// As above, with named parameters after the output.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class ReducedMesh, class ReducedIdMap,
+          class FaceListGraph, class ConductanceMap, class SegmentIdMap, class NamedParameters,
+          std::enable_if_t<internal::is_named_parameters<NamedParameters>, int> = 0>
+std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& reduced_ids, const FaceListGraph& mesh,
+                              const ConductanceMap& conductance, SegmentIdMap segment_ids, const NamedParameters& np) {
+  return transfer_segments<ConcurrencyTag>(reduced, reduced_ids, mesh, conductance, segment_ids,
+                                           internal::usual_transfer_band, np);
 }
 
 }  // namespace RW_segmentation

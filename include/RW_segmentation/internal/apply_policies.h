@@ -10,7 +10,6 @@
 
 #include <boost/graph/graph_traits.hpp>
 
-#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -19,10 +18,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// No seeds of the user's.
-template <class FaceListGraph>
-constexpr std::array<typename boost::graph_traits<FaceListGraph>::face_descriptor, 0> no_seeds = {};
 
 /// Calls a policy, which may tell its progress or not.
 template <class Policy, class... Arguments>

@@ -39,6 +39,10 @@ using Vertex_point = CGAL::internal_np::vertex_point_t;
 using Edge_is_constrained = CGAL::internal_np::edge_is_constrained_t;
 using Callback = CGAL::internal_np::callback_t;
 
+/// Whether all are names that stages take: points, walls and what is told the progress.
+template <class NamedParameters>
+constexpr bool has_only_names_of_stages = has_only<NamedParameters, Vertex_point, Edge_is_constrained, Callback>;
+
 /// The value of a named parameter that may be missing.
 template <class NamedParameters, class Tag>
 constexpr bool has_parameter =

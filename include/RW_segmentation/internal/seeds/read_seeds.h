@@ -7,6 +7,7 @@
 
 #include <boost/graph/graph_traits.hpp>
 
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <stdexcept>
@@ -16,6 +17,10 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
+
+/// No seeds of the user's.
+template <class FaceListGraph>
+constexpr std::array<typename boost::graph_traits<FaceListGraph>::face_descriptor, 0> no_seeds = {};
 
 template <class Seed, class Face, class = void>
 struct Is_seed : std::is_convertible<Seed, Face> {};
