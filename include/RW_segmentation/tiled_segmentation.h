@@ -281,7 +281,7 @@ Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const 
 
 /// What `fragments_of_tile()` takes of the steps before it.
 struct Walked_tile {
-  Tile_in_plan place;
+  Tile_in_plan place;                           ///< of the tile
   const Tile_shape& shape;                      ///< of the tile
   const Tile_clusters& clusters;                ///< of the tile
   const std::vector<Tile_border>& borders;      ///< of `plan.tiles[number].neighbours`, in their order
