@@ -241,6 +241,12 @@ Outcome_of_method by_region_growing(const Subject& subject) {
   return outcome;
 }
 
+/// The choice that `segment_mesh --thorough` makes.
+Automatic_segmentation thorough(Automatic_segmentation policy) {
+  policy.seedings = 4;
+  return policy;
+}
+
 Automatic_segmentation with_reduced_walk() {
   Automatic_segmentation policy;
   policy.reduction.largest_direct = 0;
@@ -305,6 +311,11 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
       {"count",
        [=](const Subject& s) {
          return automatically(s, Automatic_segmentation(typical_number_of_segments(s)), folds);
+       }},
+      {"thorough", [=](const Subject& s) { return automatically(s, thorough(Automatic_segmentation()), folds); }},
+      {"thorough_count",
+       [=](const Subject& s) {
+         return automatically(s, thorough(Automatic_segmentation(typical_number_of_segments(s))), folds);
        }},
       {"levels", [=](const Subject& s) { return automatically(s, Automatic_segmentation(), folds, true); }},
       {"size_aware",
@@ -555,7 +566,7 @@ int main(int argc, char* argv[]) {
       ->check(CLI::Range(1, 1024));
   auto* fold_option = app.add_option("--folds", folds,
                                      "what the trees of the learned merge cost know nothing of: the mesh's category;\n"
-                                     "compares with the size-aware cost")
+                                     "compares with the size-aware cost, and several seedings with one")
                           ->check(CLI::IsMember({"category"}));
   app.add_option("--trees", trees, "file of such trees, as train_merge_cost.py writes it to its --folds")
       ->check(CLI::ExistingFile)
@@ -572,7 +583,8 @@ int main(int argc, char* argv[]) {
     if (!folds.empty()) {
       if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
       trees_of_folds.emplace(trees);
-      chosen = {"automatic", "size_aware", "count", "size_aware_count", "levels", "size_aware_levels"};
+      chosen = {"automatic", "size_aware",        "count",    "size_aware_count",
+                "levels",    "size_aware_levels", "thorough", "thorough_count"};
     }
     const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 
@@ -593,9 +605,12 @@ int main(int argc, char* argv[]) {
       print_table(chosen[m], scores[m]);
       results.push_back(result_of(chosen[m], changes, scores[m]));
     }
-    for (std::size_t m = 0; trees_of_folds && m < chosen.size(); m += 2) {
-      print_comparison(chosen[m], scores[m], chosen[m + 1], scores[m + 1]);
-      const std::vector<double> difference = gains(scores[m], scores[m + 1]);
+    // By their places among the methods chosen.
+    const std::vector<std::pair<std::size_t, std::size_t>> comparisons = {{0, 1}, {2, 3}, {4, 5}, {6, 0}, {7, 2}};
+    for (std::size_t i = 0; trees_of_folds && i < comparisons.size(); ++i) {
+      const auto [m, other] = comparisons[i];
+      print_comparison(chosen[m], scores[m], chosen[other], scores[other]);
+      const std::vector<double> difference = gains(scores[m], scores[other]);
       results[m].add("folds", folds).add("difference", mean(difference));
       results[m].add("standard_error_of_difference", standard_error(difference));
     }

@@ -80,6 +80,7 @@ void expect_policies_told(const Numbers& told, const Policies& policies) {
   expect("difference.ordinary_difference", policies.difference.ordinary_difference);
   expect("sigma", policies.sigma);
   expect("cap", policies.cap);
+  expect("seedings", policies.seedings);
   expect("seeding.count", policies.seeding.count);
   expect("seeding.sampling", policies.seeding.sampling.normal_weight());
 }

@@ -570,6 +570,9 @@ TEST_F(Segment_mesh_tool, ChoicesThatMakeNoSenseTogetherAreRefused) {
   expect("give --seeding coarse in its place", {"--coarse", "--merge-cost", "size"});
   expect("give --segments or --seeds", {"--seed", "0", "--seeding", "particles"});
   expect("give --segments or --seeds", {"--seed", "0", "--merge-cost", "size"});
+  expect("give --seeding coarse in its place", {"--coarse", "--thorough"});
+  expect("give --segments or --seeds", {"--seed", "0", "--thorough"});
+  expect("leave out --engineering or --thorough", {"--engineering", "--thorough"});
   for (const char* angle : {"0", "-1", "180", "nan"}) expect("--constraints-angle", {"--constraints-angle", angle});
 }
 

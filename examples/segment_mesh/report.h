@@ -73,6 +73,7 @@ inline Json parameters_of(const Options& options, const Method& method) {
   if (options.merges() || options.is_coarse) parameters["seeding"] = name_of(seeding_names, method.seeding);
   parameters["solver"] = name_of(solver_names, method.solver);
   if (options.merges()) parameters["merge_cost"] = name_of(merge_cost_names, method.merge_cost);
+  if (options.merges()) parameters["seedings"] = method.seedings;
   return parameters;
 }
 

@@ -9,6 +9,7 @@
 #include <RW_segmentation/Segmentation_policies.h>
 #include <RW_segmentation/Segmentation_report.h>
 #include <RW_segmentation/internal/apply_policies.h>
+#include <RW_segmentation/internal/merging/Consensus_cost.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/parallel_for.h>
@@ -43,6 +44,12 @@ struct Merged_fragments {
   Segmentation_report report;
 };
 
+/// Refuses no seeding.
+/// \throws std::invalid_argument
+inline void require_seedings(std::size_t seedings) {
+  if (seedings == 0) throw argument_error("seedings", seedings, "at least 1");
+}
+
 /// Segments a mesh that has been read: seeds, walk, merging.
 /// \tparam Mesh a `Dual_mesh_of`, or `Dual_mesh` for policies that ask for no descriptors
 template <class ConcurrencyTag, class Mesh, class Policies>
@@ -73,33 +80,64 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
 
   std::vector<Dual_mesh::Index> seeds;
   Fragments fragments;
+  const auto walk_from_seeds = [&](Any_walk_solver analysed, const Progress& part) {
+    const Walk_network network = {shape.graph(), conductance, component};
+    return is_reduced ? walk_fragments_over_clusters(
+                            network, shape.edge_lengths(), seeds, policies.reduction,
+                            [&] { return make_solver(policies.solver); }, part)
+                      : walk_fragments(network, std::move(analysed), seeds, part);
+  };
+  const auto progress_of_seeding = [&](std::size_t k) {
+    const auto seedings = static_cast<double>(policies.seedings);
+    return progress.part(0.4, 0.9).part(static_cast<double>(k) / seedings, static_cast<double>(k + 1) / seedings);
+  };
   const auto walk = [&] {
     seeds = seeds_by(policies.seeding, shape, difference, given, progress.part(0.3, 0.4));
     clock.note("seeds");
-    const Walk_network network = {shape.graph(), conductance, component};
-    const Progress part = progress.part(0.4, 0.9);
-    fragments = is_reduced ? walk_fragments_over_clusters(
-                                 network, shape.edge_lengths(), seeds, policies.reduction,
-                                 [&] { return make_solver(policies.solver); }, part)
-                           : walk_fragments(network, std::move(solver), seeds, part);
+    fragments = walk_from_seeds(std::move(solver), progress_of_seeding(0));
     clock.note("walk");
   };
   std::optional<Merge_cost_by<decltype(policies.merge_cost), Mesh>> cost;
   at_the_same_time<ConcurrencyTag>([&] { cost.emplace(merge_cost_by(policies.merge_cost, shape)); }, walk);
   clock.note("thickness");
 
-  report.components = component.count;
   report.seeds = seeds.size();
+  std::vector<std::vector<std::size_t>> fragment_of_face = {std::move(fragments.of_face)};  // of every seeding
+  for (std::size_t k = 1; k < policies.seedings && seeds.size() > given.size(); ++k) {
+    const Progress part = progress_of_seeding(k);
+    std::vector<Dual_mesh::Index> start = given;
+    start.push_back(seeds.back());
+    seeds = seeds_by(policies.seeding, shape, difference, start, part.part(0, 0.2));
+    auto another = make_solver(policies.solver);
+    if (!is_reduced) another.analyze(mesh.graph());
+    Fragments of_seeding = walk_from_seeds(std::move(another), part.part(0.2, 1));
+    fragments.island_faces += of_seeding.island_faces;
+    fragment_of_face.push_back(std::move(of_seeding.of_face));
+  }
+  if (policies.seedings > 1) clock.note("other seedings");
+
+  report.components = component.count;
   report.clusters = fragments.clusters;
-  report.fragments = *std::max_element(fragments.of_face.begin(), fragments.of_face.end()) + 1;
   report.degenerate_faces = shape.number_of_degenerate_faces();
   report.island_faces = fragments.island_faces;
   report.has_heavy_noise = &shape.points() != &mesh.points();
-  Merge_tree tree =
-      merge_fragments(shape, fragments.of_face, report.fragments, difference, *cost, progress.part(0.9, 1));
+  std::vector<Merge_tree> trees;
+  for (const std::vector<std::size_t>& of : fragment_of_face)
+    trees.push_back(merge_fragments(shape, of, *std::max_element(of.begin(), of.end()) + 1, difference, *cost,
+                                    progress.part(0.9, 0.95)));
+  Merged_fragments merged;
+  if (trees.size() == 1) {
+    merged = {std::move(trees.front()), std::move(fragment_of_face.front()), {}};
+  } else {
+    Common_refinement refinement = common_refinement(shape.graph(), conductance, fragment_of_face);
+    merged.tree = merge_by_consensus(shape, refinement, trees, difference, *cost, progress.part(0.95, 1));
+    merged.fragment_of_face = std::move(refinement.of_face);
+  }
+  report.fragments = merged.tree.number_of_fragments();
   clock.note("merging");
   progress(1);
-  return {std::move(tree), std::move(fragments.of_face), std::move(report)};
+  merged.report = std::move(report);
+  return merged;
 }
 
 /// By the library's own policies, which ask for no descriptors.
@@ -133,6 +171,7 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
       "Segmentation via random walks takes the named parameters vertex_point_map, edge_is_constrained_map and "
       "callback.");
   internal::require_reduction_numbers(policies.reduction);
+  internal::require_seedings(policies.seedings);
   return internal::with_threads<ConcurrencyTag>(
       [&]() -> Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> {
         Segmentation_report report;

@@ -57,6 +57,9 @@ class Policy:
         The difference that divides the conductance by e; 1 is an average edge.
     cap : float, optional
         The largest difference / sigma that counts.
+    thorough : bool
+        Whether seeds are placed four times, and fragments are merged by what comes of all of them: closer to what people do,
+        in two to three times the time.
     """
 
     base: Literal["automatic", "paper", "coarse", "coarse_paper"] = "automatic"
@@ -70,6 +73,7 @@ class Policy:
     radius: float | None = None
     sigma: float | None = None
     cap: float | None = None
+    thorough: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a base that there is not."""
@@ -84,6 +88,7 @@ class Policy:
         choices = _core.Choices()
         choices.is_paper = self.base in ("paper", "coarse_paper")
         choices.is_coarse = self.base in ("coarse", "coarse_paper")
+        choices.is_thorough = self.thorough
         choices.seeds = self.number_of_seeds
         choices.segments = None if segments is None else integer_of(segments, "the number of segments", 0)
         choices.difference = difference

@@ -16,7 +16,7 @@ namespace rw_python {
 
 /// How segments are found, as the user says it. What is not given is left to the library's own numbers.
 struct Choices {
-  bool is_paper = false, is_coarse = false;
+  bool is_paper = false, is_coarse = false, is_thorough = false;
   std::optional<std::string> difference, seeding, merge_cost, solver, measure;
   std::optional<double> smoothing, convex_weight, radius, sigma, cap;
   std::optional<std::size_t> seeds, segments;
