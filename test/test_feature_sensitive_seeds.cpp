@@ -2,9 +2,7 @@
 
 #include <RW_segmentation/Particle_sampling.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
-#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
 
-#include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
 
@@ -18,7 +16,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -301,39 +298,6 @@ TEST(Farthest_point_seeds, OfCostsThatDifferWidelyAreThoseOfShortestPaths) {
     const auto nearest = metric.paths_to_nearest(first(seeds, k));
     const double largest = *std::max_element(nearest.begin(), nearest.end());
     EXPECT_NEAR(nearest[seeds[k]], largest, 1e-8 * largest);
-  }
-}
-
-TEST(DistancesToSources, AreThoseOfBoostsDijkstraToTheLastBit) {
-  std::mt19937 random(11);
-  std::normal_distribution<double> normal;
-  const Mesh mesh =
-      meshes::surface_mesh(meshes::together(meshes::sphere(3), meshes::moved(meshes::sphere(1), {4, 0, 0})));
-  const Dual_mesh_of dual(mesh);
-  const Dual_graph& graph = dual.graph();
-  for (const double spread :
-       {0., 1., 5.}) {  // of the logarithms: from costs that are equal to those that differ by 1e10
-    std::vector<double> cost(graph.number_of_edges());
-    for (double& c : cost) {
-      const auto kind = random() % 20;
-      c = kind == 0 ? 0 : kind == 1 ? infinity : std::exp(spread * normal(random));
-    }
-    internal::Distances_to_sources distance(graph, cost);
-    std::vector<Dual_graph::Index> sources;
-    for (std::size_t added = 0; added < 4; ++added) {  // one, then one and two more, ...
-      for (std::size_t i = 0; i <= added; ++i)
-        sources.push_back(static_cast<Dual_graph::Index>(random() % graph.number_of_faces()));
-      distance.add_sources(sources.end() - static_cast<std::ptrdiff_t>(added + 1), sources.end());
-      std::vector<double> expected(graph.number_of_faces());
-      const boost::typed_identity_property_map<Dual_graph::Index> number;
-      boost::dijkstra_shortest_paths(
-          graph, sources.begin(), sources.end(), boost::dummy_property_map(),
-          boost::make_iterator_property_map(expected.begin(), number),
-          boost::make_function_property_map<Dual_graph::Arc>([&](const Dual_graph::Arc& a) { return cost[a.edge]; }),
-          number, std::less<>(), std::plus<>(), infinity, 0., boost::default_dijkstra_visitor());
-      for (const auto source : sources) expected[source] = -1;
-      EXPECT_EQ(*distance, expected) << spread << ", " << sources.size() << " sources";
-    }
   }
 }
 

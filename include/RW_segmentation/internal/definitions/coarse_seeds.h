@@ -7,7 +7,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/mesh/Components.h>
-#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
+#include <RW_segmentation/internal/seeds/Path_lengths.h>
 
 #include <Eigen/Core>
 
@@ -19,7 +19,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -29,12 +28,17 @@ class Coarse_seeds {
  public:
   using Index = Dual_mesh::Index;
 
-  /// Keeps a reference to the mesh. The differences are in the order of the edges.
+  /// Keeps references to the mesh and the differences, which are in the order of the edges.
   Coarse_seeds(const Dual_mesh& mesh, const std::vector<double>& differences)
       : mesh_(mesh),
         mean_(mean_difference(differences)),
-        difference_(mesh.graph(), within_walls(mesh, differences)),
-        distance_(mesh.graph(), centroid_distances(mesh)) {}
+        step_difference_(differences),
+        step_length_(centroid_distances(mesh)),
+        difference_(mesh.graph(), step_difference_),
+        distance_(mesh.graph(), step_length_) {
+    for (Index e = 0; e < mesh.number_of_edges(); ++e)
+      if (mesh.is_wall(e)) step_difference_[e] = std::numeric_limits<double>::infinity();
+  }
 
   /// Finds the seeds that are added to the `given` ones.
   std::vector<Index> operator()(const std::vector<Index>& given,
@@ -49,7 +53,7 @@ class Coarse_seeds {
         throw argument_error("the number of seeds at which stop ends", separation.size() - 1,
                              ("at least " + std::to_string(seeds_.size()) + ", one for each component").c_str());
     }
-    difference_.add_sources(seeds_.begin(), seeds_.end());
+    difference_.add_sources(seeds_);
     const double unit = mean_ * std::sqrt(static_cast<double>(mesh_.number_of_faces()));
     while (seeds_.size() < mesh_.number_of_faces()) {
       progress(1 - 1 / static_cast<double>(seeds_.size()));
@@ -57,7 +61,7 @@ class Coarse_seeds {
       separation.push_back(difference_[next] > 0 ? difference_[next] / unit : 0);
       if (stop(separation)) return added(given);
       seeds_.push_back(next);
-      difference_.add_source(next);
+      difference_.add_sources({next});
     }
     separation.push_back(0);
     if (!seeds_.empty() && !stop(separation))
@@ -79,22 +83,16 @@ class Coarse_seeds {
     return mean;
   }
 
-  /// Values of the edges, infinite over walls.
-  static std::vector<double> within_walls(const Dual_mesh& mesh, std::vector<double> values) {
-    for (Index e = 0; e < mesh.number_of_edges(); ++e)
-      if (mesh.is_wall(e)) values[e] = std::numeric_limits<double>::infinity();
-    return values;
-  }
-
   /// The distances between the centroids of neighbouring faces: geodesic distance is the length of a path over them.
   static std::vector<double> centroid_distances(const Dual_mesh& mesh) {
     std::vector<double> distance;
     distance.reserve(mesh.number_of_edges());
     for (Index e = 0; e < mesh.number_of_edges(); ++e) {
       const auto [f, g] = mesh.graph().faces_of(e);
-      distance.push_back((mesh.centroid(f) - mesh.centroid(g)).norm());
+      distance.push_back(mesh.is_wall(e) ? std::numeric_limits<double>::infinity()
+                                         : (mesh.centroid(f) - mesh.centroid(g)).norm());
     }
-    return within_walls(mesh, std::move(distance));
+    return distance;
   }
 
   /// The faces of a range with the greatest value but for rounding errors, in their order. Taking them for equal makes
@@ -133,8 +131,8 @@ class Coarse_seeds {
 
     std::vector<Index> seeds;
     for (const auto& component : faces) seeds.push_back(face_closest_to_centroid(component));
-    Distances_to_sources from_centre(mesh_.graph(), centroid_distances(mesh_));
-    from_centre.add_sources(seeds.begin(), seeds.end());
+    Path_lengths from_centre(mesh_.graph(), step_length_);
+    from_centre.add_sources(seeds);
     for (std::size_t i = 0; i < seeds.size(); ++i)
       seeds[i] = with_greatest(
                      faces[i], [&](Index f) { return from_centre[f]; }, rounding)
@@ -147,7 +145,7 @@ class Coarse_seeds {
         Numbers{static_cast<Index>(mesh_.number_of_faces())}, [&](Index f) { return difference_[f]; },
         rounding * mean_);
     if (greatest.size() == 1) return greatest.front();
-    distance_.add_sources(seeds_.begin() + static_cast<std::ptrdiff_t>(seeds_in_distance_), seeds_.end());
+    distance_.add_sources({seeds_.begin() + static_cast<std::ptrdiff_t>(seeds_in_distance_), seeds_.end()});
     seeds_in_distance_ = seeds_.size();
     return with_greatest(
                greatest, [&](Index f) { return difference_[f] < 0 ? -1 : distance_[f]; }, rounding)
@@ -167,7 +165,8 @@ class Coarse_seeds {
 
   const Dual_mesh& mesh_;
   double mean_;
-  Distances_to_sources difference_, distance_;  // to the nearest seed, the latter brought up to date where it decides
+  std::vector<double> step_difference_, step_length_;  // by edge, infinite over walls
+  Path_lengths difference_, distance_;  // to the nearest seed, the latter brought up to date where it decides
   std::size_t seeds_in_distance_ = 0;
   std::vector<Index> seeds_;
 };
