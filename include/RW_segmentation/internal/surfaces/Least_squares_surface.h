@@ -3,7 +3,6 @@
 #ifndef RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 #define RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <cmath>
@@ -76,7 +75,7 @@ class Least_squares_surface {
       Matrix damped = hessian_;
       damped.diagonal() *= 1 + damping_;
       damped.diagonal().array() += determined * largest;
-      const Vector step = damped.template selfadjointView<Eigen::Lower>().ldlt().solve(-gradient_);
+      const Vector step = solution(damped, -gradient_);
       if (const double linear = squares_after(step); linear > hopeless_squares && linear > hardly_less * sum_)
         return false;
       const Type moved = surface_.moved(step, frame);
@@ -89,6 +88,26 @@ class Least_squares_surface {
       }
     }
     return false;
+  }
+
+  /// Solves linear equations by L D L^T without pivots, which a damped matrix does not need. Unknowns that the equations
+  /// do not tell are 0.
+  /// \param matrix its lower half is read
+  static Vector solution(Matrix matrix, Vector right) {
+    Vector inverse;  // of the pivots
+    for (int j = 0; j < unknowns; ++j) {
+      inverse[j] = matrix(j, j) > 0 ? 1 / matrix(j, j) : 0;
+      for (int i = j + 1; i < unknowns; ++i) {
+        const double factor = matrix(i, j) * inverse[j];
+        for (int k = i; k < unknowns; ++k) matrix(k, i) -= factor * matrix(k, j);
+        right[i] -= factor * right[j];
+      }
+    }
+    for (int i = unknowns - 1; i >= 0; --i) {
+      for (int k = i + 1; k < unknowns; ++k) right[i] -= matrix(k, i) * right[k];
+      right[i] *= inverse[i];
+    }
+    return right;
   }
 
   /// The normal equations at the present surface.
@@ -106,8 +125,13 @@ class Least_squares_surface {
 
   /// The squares that the linearised distances have after a step.
   double squares_after(const Vector& step) const {
-    const Vector change = hessian_.template selfadjointView<Eigen::Lower>() * step;
-    return sum_ + step.dot(2 * gradient_ + change);
+    double change = 0;
+    for (int j = 0; j < unknowns; ++j) {
+      double below = 0;
+      for (int i = j + 1; i < unknowns; ++i) below += hessian_(i, j) * step[i];
+      change += step[j] * (2 * gradient_[j] + hessian_(j, j) * step[j] + 2 * below);
+    }
+    return sum_ + change;
   }
 
   Type surface_;
