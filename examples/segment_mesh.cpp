@@ -10,10 +10,12 @@
 #include "segment_mesh/report.h"
 #include "segment_mesh/run.h"
 #include "segment_mesh/run_all.h"
+#include "segment_mesh/signals.h"
 #include "segment_mesh/tiles/run_tiles.h"
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
@@ -74,6 +76,7 @@ int main(int argc, char** argv) {
     if (options.is_man_page_wanted) return std::fputs(man_page(app).c_str(), stdout) >= 0 ? success : unwritable_output;
     check_combinations(options);
     survive_full_disks();
+    std::signal(SIGBUS, end_for_lost_file);
     if (options.bytes) limit_memory(*options.bytes);
     const std::vector<Task> tasks = tasks_of(options);
     if (options.is_tiled) return run_tiles(tasks, options);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -19,15 +19,15 @@
 
 namespace {
 
-std::size_t in_use = 0, most_in_use = 0;
+std::atomic<std::size_t> in_use = 0, most_in_use = 0;            // pieces of a file are read by several threads
 constexpr std::size_t size_of_note = alignof(std::max_align_t);  // before each block: its size
 
 void* allocate(std::size_t size) {
   auto* const block = static_cast<char*>(std::malloc(size + size_of_note));
   if (!block) throw std::bad_alloc();
   *reinterpret_cast<std::size_t*>(block) = size;
-  in_use += size;
-  most_in_use = std::max(most_in_use, in_use);
+  const std::size_t now = in_use += size;
+  for (std::size_t most = most_in_use; most < now && !most_in_use.compare_exchange_weak(most, now);) continue;
   return block + size_of_note;
 }
 
@@ -68,7 +68,8 @@ double bytes_for_each(const std::string& name, const std::string& content) {
       std::filesystem::temp_directory_path() / (std::to_string(std::random_device()()) + name);
   std::ofstream(path, std::ios::binary) << content;
   const std::string file = path.string();
-  const std::size_t before = most_in_use = in_use;
+  const std::size_t before = in_use;
+  most_in_use = before;
   try {
     mesh_files::read_mesh(file);
   } catch (const mesh_files::Unreadable_file&) {

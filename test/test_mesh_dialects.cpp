@@ -4,7 +4,9 @@
 
 #include "../examples/mesh_files.h"
 
+#include "dialects.h"
 #include "gmsh_and_medit_files.h"
+#include "large_shapes.h"
 #include "mesh_bytes.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +15,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 #include <string>
@@ -391,4 +395,138 @@ TEST(Mesh_dialects, AFileOnDiskIsReadLikeItsContent) {
   std::ofstream(path, std::ios::binary) << byte_order_mark << obj;
   EXPECT_EQ(triangles_of(mesh_files::read_mesh(path.string())), tetrahedron());
   std::filesystem::remove(path);
+}
+
+namespace {
+
+/// The points, the corners and the remarks of a file, or why it is refused.
+template <class Read>
+std::string outcome_of(const Read& read) {
+  std::ostringstream outcome;
+  outcome.precision(17);
+  try {
+    const Polygon_soup soup = read();
+    for (const auto& p : soup.points) outcome << p << ", ";
+    for (const auto corner : soup.corners) outcome << corner << ' ';
+    for (const auto first : soup.first_corner) outcome << first << ' ';
+    for (const std::string& remark : soup.remarks) outcome << remark;
+  } catch (const mesh_files::Unreadable_file& error) {
+    outcome << error.what();
+  }
+  return outcome.str();
+}
+
+/// Some polygons of 3 to 6 corners over many points, as the body of a PLY file.
+std::string binary_ply_of_polygons(std::size_t points, std::size_t faces, bool has_high_byte_first,
+                                   const std::string& type_of_size, Polygon_soup& soup) {
+  std::string ply = std::string("ply\nformat binary_") + (has_high_byte_first ? "big" : "little") +
+                    "_endian 1.0\nelement vertex " + std::to_string(points) +
+                    "\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\nelement face " +
+                    std::to_string(faces) + "\nproperty uchar flag\nproperty list " + type_of_size +
+                    " int vertex_indices\nproperty short group\nend_header\n";
+  const auto add = [&](auto value) {
+    std::array<char, sizeof value> bytes;
+    std::memcpy(bytes.data(), &value, sizeof value);
+    if (has_high_byte_first) std::reverse(bytes.begin(), bytes.end());
+    ply.append(bytes.data(), bytes.size());
+  };
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> coordinate(-1, 1);
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::array<float, 3> p = {coordinate(random), coordinate(random), coordinate(random)};
+    add(p[0]);
+    add(std::uint8_t(7));
+    add(p[1]);
+    add(p[2]);
+    soup.points.emplace_back(p[0], p[1], p[2]);
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::uint32_t corners = 3 + random() % 4;
+    add(std::uint8_t(1));
+    if (type_of_size == "uchar")
+      add(static_cast<std::uint8_t>(corners));
+    else
+      add(corners);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      soup.corners.push_back(static_cast<std::uint32_t>(random() % points));
+      add(soup.corners.back());
+    }
+    add(std::uint16_t(3));
+    soup.end_face();
+  }
+  return ply;
+}
+
+}  // namespace
+
+TEST(Mesh_dialects, PiecesOfATextAreReadLikeTheWhole) {
+  std::mt19937 random(1);
+  constexpr std::size_t whole = std::size_t(1) << 30;
+  for (const dialects::Dialect& dialect : dialects::all()) {
+    const std::string extension = std::filesystem::path(dialect.file).extension().string();
+    const std::string sound = dialect.content(large_shapes::free_form(6, 4));
+    if ((extension != ".off" && extension != ".obj") || sound.empty()) continue;
+    for (int damage = 0; damage < 12; ++damage) {
+      std::string content = sound;
+      if (damage > 0) content[random() % content.size()] = "0.-\n\r# \\f"[random() % 9];
+      const auto read = [&](std::size_t size) {
+        return outcome_of([&] {
+          return extension == ".off" ? mesh_files::read_off("m", content, size)
+                                     : mesh_files::read_obj("m", content, size);
+        });
+      };
+      const std::string expected = read(whole);
+      for (const std::size_t size : {std::size_t(1), std::size_t(33), std::size_t(500)})
+        ASSERT_EQ(read(size), expected) << dialect.name << ", pieces of " << size << " bytes:\n" << content;
+    }
+  }
+}
+
+TEST(Mesh_dialects, BinaryPlyOfManyPolygonsInBothOrdersOfBytes) {
+  for (const bool has_high_byte_first : {false, true})
+    for (const char* type : {"uchar", "int"}) {
+      Polygon_soup soup;
+      std::string content = binary_ply_of_polygons(40000, 50000, has_high_byte_first, type, soup);
+      const auto outcome = [&] { return outcome_of([&] { return mesh_files::read_ply("m", content); }); };
+      EXPECT_TRUE(outcome() == outcome_of([&] { return soup; })) << type;
+      content.pop_back();
+      EXPECT_EQ(outcome(), "m: the file ends after 49999 of 50000 elements \"face\"");
+      content.back() = '\1';
+      content[content.size() - 3] = '\x7f';
+      content[content.size() - 4] = '\x7f';
+      content += '\0';
+      EXPECT_NE(outcome().find("m: face 49999: the face names vertex "), std::string::npos) << outcome().substr(0, 99);
+    }
+}
+
+TEST(Mesh_dialects, CornersOfStlAreNumberedInTheOrderInWhichTheyFirstCome) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> step(-20, 20);
+  constexpr std::size_t facets = 30001;
+  std::string content(80, ' ');
+  const auto add = [&](auto value) {
+    std::array<char, sizeof value> bytes;
+    std::memcpy(bytes.data(), &value, sizeof value);
+    content.append(bytes.data(), bytes.size());
+  };
+  add(static_cast<std::uint32_t>(facets));
+  Polygon_soup soup;
+  std::map<std::array<float, 3>, std::uint32_t> number;
+  for (std::size_t f = 0; f < facets; ++f) {
+    for (int i = 0; i < 3; ++i) add(0.F);
+    for (int i = 0; i < 3; ++i) {
+      std::array<float, 3> p;
+      for (float& x : p) {
+        x = float(step(random)) / 8;
+        if (x == 0 && random() % 2 == 0) x = -0.F;  // equal to 0
+        add(x);
+      }
+      const auto [found, is_new] = number.emplace(p, static_cast<std::uint32_t>(number.size()));
+      if (is_new) soup.points.emplace_back(p[0], p[1], p[2]);
+      soup.corners.push_back(found->second);
+    }
+    add(std::uint16_t(0));
+    soup.end_face();
+  }
+  EXPECT_TRUE(outcome_of([&] { return mesh_files::read_stl("m", content); }) == outcome_of([&] { return soup; }));
 }

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace mesh_files {
@@ -65,6 +66,24 @@ bool parse(std::string_view word, Integer& value) {
   return end == word.data() + word.size() && error == std::errc();
 }
 
+/// Reads the number that a text begins with.
+/// \returns where it ends; null if there is none, or telling takes more than a look at its digits, see `number_in()`
+template <class Number>
+const char* read_number([[maybe_unused]] const char* begin, [[maybe_unused]] const char* end,
+                        [[maybe_unused]] Number& value) {
+#ifdef __cpp_lib_to_chars
+  constexpr bool is_known = true;
+#else
+  constexpr bool is_known = !std::is_floating_point_v<Number>;
+#endif
+  if constexpr (is_known) {
+    const auto [after, error] = std::from_chars(begin, end, value);
+    return error == std::errc() ? after : nullptr;
+  } else {
+    return nullptr;
+  }
+}
+
 /// The number that a word spells, if it spells one: a `double`, which may be infinite or NaN, or an integer.
 template <class Number>
 std::optional<Number> number_in(std::string_view word) {
@@ -98,7 +117,7 @@ class Text {
         line_ = {line_.data(), static_cast<std::size_t>(more.data() + more.size() - line_.data())};
         ++lines_taken_;
       }
-      line_ = line_.substr(0, line_.find('#'));
+      remove_comment();
       skip_blanks();
       if (!line_.empty()) return true;
     }
@@ -122,7 +141,8 @@ class Text {
 
   /// The next word of the line, empty at its end.
   std::string_view word() {
-    const std::size_t size = std::min(line_.find_first_of(blanks), line_.size());
+    std::size_t size = 0;
+    while (size < line_.size() && !is_blank(line_[size])) ++size;
     const std::string_view found = line_.substr(0, size);
     line_.remove_prefix(size);
     skip_blanks();
@@ -171,25 +191,27 @@ class Text {
   std::size_t number_of_line() const { return number_of_line_; }
 
  private:
-  static constexpr std::string_view blanks = " \t\r\n\v\f\\";
+  static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r') || c == '\\'; }
 
   /// Whether it starts with a CR that is a line end by itself.
   static bool starts_with_carriage_return(std::string_view text) {
     return !text.empty() && text[0] == '\r' && text.substr(1, 1) != "\n";
   }
 
-  /// Where the line ends that `rest_` begins with. Each kind of line end is looked for once in the whole text, however
-  /// far away the next one is.
+  /// Goes on to the next `wanted` from `begin` on, or `end` if there is none. Each of them is looked for once in the whole
+  /// text, however far away it is.
+  static void find_next(const char*& known, const char* begin, const char* end, char wanted) {
+    if (known >= begin || begin == end) return;
+    const void* const found = std::memchr(begin, wanted, static_cast<std::size_t>(end - begin));
+    known = found ? static_cast<const char*>(found) : end;
+  }
+
+  /// Where the line ends that `rest_` begins with.
   std::size_t end_of_line() {
     const char* const begin = rest_.data();
     const char* const end = begin + rest_.size();
-    const auto next = [&](const char*& known, char wanted) {
-      if (known >= begin || begin == end) return;
-      const void* const found = std::memchr(begin, wanted, rest_.size());
-      known = found ? static_cast<const char*>(found) : end;
-    };
-    next(next_line_feed_, '\n');
-    next(next_carriage_return_, '\r');
+    find_next(next_line_feed_, begin, end, '\n');
+    find_next(next_carriage_return_, begin, end, '\r');
     return begin == end ? 0 : static_cast<std::size_t>(std::min(next_line_feed_, next_carriage_return_) - begin);
   }
 
@@ -203,15 +225,35 @@ class Text {
   }
 
   bool is_continued() const {
-    if (!joins_lines_ || line_.find('#') != std::string_view::npos) return false;
+    if (!joins_lines_) return false;
     const std::size_t last = line_.find_last_not_of(" \t\r");
-    return last != std::string_view::npos && line_[last] == '\\';
+    return last != std::string_view::npos && line_[last] == '\\' && line_.find('#') == std::string_view::npos;
   }
 
-  void skip_blanks() { line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size())); }
+  /// Ends the line where a comment begins.
+  void remove_comment() {
+    if (line_.empty()) return;
+    const char* const begin = line_.data();
+    find_next(next_hash_, begin, rest_.data() + rest_.size(), '#');
+    line_ = line_.substr(0, static_cast<std::size_t>(next_hash_ - begin));
+  }
+
+  void skip_blanks() {
+    std::size_t size = 0;
+    while (size < line_.size() && is_blank(line_[size])) ++size;
+    line_.remove_prefix(size);
+  }
 
   template <class Number>
   Number next_as(const char* what, const char* kind) {
+    Number read = 0;
+    const char* const end = line_.data() + line_.size();
+    const char* const after = read_number(line_.data(), end, read);
+    if (after && (after == end || is_blank(*after))) {
+      line_.remove_prefix(static_cast<std::size_t>(after - line_.data()));
+      skip_blanks();
+      return read;
+    }
     const std::string_view digits = word();
     if (digits.empty()) fail(std::string(what) + " is missing");
     const std::optional<Number> value = number_in<Number>(digits);
@@ -225,6 +267,7 @@ class Text {
   const char* next_line_feed_ =
       nullptr;  // the first one in the rest, or the end of the text; known since it was needed
   const char* next_carriage_return_ = nullptr;
+  const char* next_hash_ = nullptr;
   bool ends_with_carriage_return_;  // the first line
   bool joins_lines_;
   std::size_t number_of_line_ = 0;

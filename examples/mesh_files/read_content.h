@@ -5,6 +5,11 @@
 
 #include "Polygon_soup.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #ifdef RW_SEGMENTATION_WITH_ZLIB
 #include <zlib.h>
 #endif
@@ -52,6 +57,48 @@ inline std::string read_content(const std::string& path) {
   content.resize(read);
   return content;
 }
+
+/// The bytes of a file as they stand on disk, without a copy where memory can be mapped to them; those of a pipe or, for
+/// "-", of standard input are read.
+///
+/// Whoever shortens a mapped file takes its bytes away: reading them then ends the program (SIGBUS).
+class File_content {
+ public:
+  /// \throws Unreadable_file if there is no such file
+  explicit File_content(const std::string& path) {
+    if (path != standard_input) map(path);
+    if (!mapped_) read_ = read_content(path);
+  }
+
+  File_content(const File_content&) = delete;
+  File_content& operator=(const File_content&) = delete;
+
+  ~File_content() {
+    if (mapped_) ::munmap(mapped_, size_);
+  }
+
+  std::string_view bytes() const {
+    return mapped_ ? std::string_view(static_cast<const char*>(mapped_), size_) : read_;
+  }
+
+ private:
+  void map(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // nobody may write to a pipe
+    if (file < 0) return;
+    struct stat status {};
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+      size_ = static_cast<std::size_t>(status.st_size);
+      void* const memory = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0);
+      if (memory != MAP_FAILED) mapped_ = memory;
+    }
+    ::close(file);
+    if (mapped_) ::madvise(mapped_, size_, MADV_WILLNEED);
+  }
+
+  void* mapped_ = nullptr;
+  std::size_t size_ = 0;
+  std::string read_;  // where nothing is mapped
+};
 
 inline bool is_gzip(std::string_view content) { return content.substr(0, 2) == "\x1f\x8b"; }
 

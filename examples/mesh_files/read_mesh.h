@@ -123,7 +123,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
 /// \param path for the extension and messages; nothing is read from there
 /// \param format in place of the one that the path names
 /// \throws Unreadable_file if the content is broken, or promises more than it holds
-inline Polygon_soup mesh_of_content(const std::string& path, const std::string& content,
+inline Polygon_soup mesh_of_content(const std::string& path, std::string_view content,
                                     const std::optional<Format>& format = std::nullopt) {
   Polygon_soup soup = is_gzip(content) && !stl::is_binary(content)
                           ? mesh_of_unpacked(path, unpacked(path, content), format)
@@ -137,7 +137,7 @@ inline Polygon_soup mesh_of_content(const std::string& path, const std::string& 
 /// Reads an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file, or standard input for "-", see `mesh_of_content()`.
 /// \throws Unreadable_file if there is no such file, too
 inline Polygon_soup read_mesh(const std::string& path, const std::optional<Format>& format = std::nullopt) {
-  return mesh_of_content(path, read_content(path), format);
+  return mesh_of_content(path, File_content(path).bytes(), format);
 }
 
 }  // namespace mesh_files

@@ -5,15 +5,20 @@
 
 #include "Polygon_soup.h"
 #include "Text.h"
+#include "pieces.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace mesh_files {
 namespace off {
@@ -113,11 +118,83 @@ inline void read_face(Text& text, std::uint64_t vertices, Layout layout, Polygon
   soup.end_face();
 }
 
-inline Polygon_soup read(const std::string& path, std::string_view content, Layout layout) {
+/// How many lines of a piece have a word in them.
+inline std::uint64_t number_of_items(std::string_view piece) {
+  // Most files have nothing but lines that begin with a number. Their ends are counted in bytes, many at a time.
+  const auto is_odd = [](char c) {
+    return static_cast<std::uint8_t>(static_cast<std::uint8_t>(c) <= ' ') | static_cast<std::uint8_t>(c == '#') |
+           static_cast<std::uint8_t>(c == '\\');
+  };
+  constexpr std::size_t block = 128;  // less than a byte can count
+  const std::size_t last = piece.size() - 1;
+  std::uint64_t ends = 1;  // the last line's
+  bool has_odd = is_odd(piece[0]) != 0 || piece.find('\r') != std::string_view::npos;
+  for (std::size_t begin = 0; begin < last && !has_odd; begin += block) {
+    std::uint8_t ends_here = 0, odd_here = 0;
+    for (std::size_t i = begin, end = std::min(begin + block, last); i < end; ++i) {
+      const auto is_end = static_cast<std::uint8_t>(piece[i] == '\n');
+      ends_here = static_cast<std::uint8_t>(ends_here + is_end);
+      odd_here = static_cast<std::uint8_t>(odd_here | (is_end & is_odd(piece[i + 1])));
+    }
+    ends += ends_here;
+    has_odd = odd_here != 0;
+  }
+  if (!has_odd) return ends;
+  std::uint64_t items = 0;
+  for (Text text("", piece); text.next_line();) ++items;
+  return items;
+}
+
+/// Reads vertices and faces, each on a line of its own, in pieces of the text at the same time.
+/// \returns nothing if one takes several lines or is wrong, which reading one after the other tells
+inline std::optional<Polygon_soup> read_pieces(const Header& header, std::string_view content, std::size_t size) {
+  const std::vector<std::string_view> texts = pieces_of(content, size);
+  std::vector<std::uint64_t> first_item(texts.size() + 1, 0);
+  for_each_piece(texts.size(), [&](std::size_t i) { first_item[i + 1] = number_of_items(texts[i]); });
+  std::partial_sum(first_item.begin(), first_item.end(), first_item.begin());
+  const std::uint64_t items = header.vertices + header.faces;
+  if (first_item.back() < items) return std::nullopt;
+
+  Polygon_soup soup;
+  soup.points.resize(header.vertices);
+  std::vector<Polygon_soup> faces(texts.size());
+  std::atomic<bool> is_wrapped = false;
+  const auto read_piece = [&](std::size_t i) {
+    Text text("", texts[i]);
+    const std::uint64_t end = std::min(first_item[i + 1], items);
+    if (end > header.vertices && end > first_item[i]) {
+      faces[i].first_corner.reserve(end - first_item[i] + 1);
+      faces[i].corners.reserve(3 * (end - first_item[i]));
+    }
+    for (std::uint64_t item = first_item[i]; item < end && !is_wrapped; ++item) {
+      text.next_line();
+      const std::size_t line = text.number_of_line();
+      if (item < header.vertices)
+        soup.points[item] = read_point(text, header.has_weights, Layout::lines);
+      else
+        read_face(text, header.vertices, Layout::lines, faces[i]);
+      if (text.number_of_line() != line) is_wrapped = true;
+    }
+  };
+  try {
+    for_each_piece(texts.size(), read_piece);
+  } catch (const Unreadable_file&) {
+    return std::nullopt;
+  }
+  if (is_wrapped) return std::nullopt;
+  append_faces(faces, soup);
+  return soup;
+}
+
+inline Polygon_soup read(const std::string& path, std::string_view content, Layout layout,
+                         [[maybe_unused]] std::size_t size_of_a_piece) {
   Text text(path, content);
   if (!text.next_line()) throw Unreadable_file(path + ": the file is empty");
   const Header header = read_header(text, content.size());
   if (layout == Layout::free && text.next_word()) text.count("the number of edges");
+  if constexpr (reads_pieces)
+    if (layout == Layout::lines && text.rest().size() > size_of_a_piece)
+      if (std::optional<Polygon_soup> soup = read_pieces(header, text.rest(), size_of_a_piece)) return std::move(*soup);
   const auto next_item = [&](std::uint64_t item, std::uint64_t items, const char* name) {
     if (layout == Layout::lines ? !text.next_line() : !text.next_word()) text.fail_at_end(count_of(item, items, name));
   };
@@ -143,12 +220,14 @@ inline Polygon_soup read(const std::string& path, std::string_view content, Layo
 /// Reads an OFF file (http://www.geomview.org/docs/html/OFF.html) in text form. Normals, colours and texture coordinates
 /// are passed over; they are known from the lines, of which each vertex and each face begins one. A file that is wrong
 /// in that way is read as numbers that run on wherever lines end, if that leaves none over.
-inline Polygon_soup read_off(const std::string& path, std::string_view content) {
+/// \param size_of_a_piece what a thread reads at once, in bytes
+inline Polygon_soup read_off(const std::string& path, std::string_view content,
+                             std::size_t size_of_a_piece = size_of_pieces) {
   try {
-    return off::read(path, content, off::Layout::lines);
+    return off::read(path, content, off::Layout::lines, size_of_a_piece);
   } catch (const Unreadable_file&) {
     try {
-      return off::read(path, content, off::Layout::free);
+      return off::read(path, content, off::Layout::free, size_of_a_piece);
     } catch (const Unreadable_file&) {
     }
     throw;

@@ -6,17 +6,22 @@
 #include "Polygon_soup.h"
 #include "Strips.h"
 #include "Text.h"
+#include "pieces.h"
 
 #include <boost/endian/conversion.hpp>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mesh_files {
@@ -308,6 +313,204 @@ Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertice
   return soup;
 }
 
+// ---- Binary files as most programs write them, many elements at once ----
+
+/// A number of a binary file.
+/// \param is_swapped whether its bytes are in the other order than those of this machine
+template <class Number>
+Number load_number(const char* bytes, bool is_swapped) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof(Number));
+  return is_swapped ? boost::endian::endian_reverse(number) : number;
+}
+
+template <>
+inline float load_number(const char* bytes, bool is_swapped) {
+  const auto bits = load_number<std::uint32_t>(bytes, is_swapped);
+  float number;
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
+template <>
+inline double load_number(const char* bytes, bool is_swapped) {
+  const auto bits = load_number<std::uint64_t>(bytes, is_swapped);
+  double number;
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
+/// The bytes of an element without lists; nothing if it has some.
+inline std::optional<std::size_t> fixed_size_of(const Element& element) {
+  std::size_t size = 0;
+  for (const Property& property : element.properties) {
+    if (property.is_list) return std::nullopt;
+    size += size_of(property.type);
+  }
+  return size;
+}
+
+/// How many elements a thread reads at once: some hundred kilobytes of them.
+constexpr std::size_t elements_at_once = 1 << 14;
+
+/// Reads points whose coordinates are numbers of one type.
+/// \param offset of the coordinates in an element
+/// \returns false if one is not finite
+template <class Coordinate>
+bool read_points(const char* bytes, bool is_swapped, std::size_t size_of_element,
+                 const std::array<std::size_t, 3>& offset, std::vector<Polygon_soup::Point>& points) {
+  std::atomic<bool> are_finite = true;
+  for_each_piece((points.size() + elements_at_once - 1) / elements_at_once, [&](std::size_t piece) {
+    bool are_these_finite = true;
+    const std::size_t end = std::min((piece + 1) * elements_at_once, points.size());
+    for (std::size_t i = piece * elements_at_once; i < end; ++i) {
+      std::array<double, 3> p;
+      for (std::size_t j = 0; j < 3; ++j) {
+        p[j] = double(load_number<Coordinate>(bytes + i * size_of_element + offset[j], is_swapped));
+        are_these_finite = are_these_finite && std::isfinite(p[j]);
+      }
+      points[i] = {p[0], p[1], p[2]};
+    }
+    if (!are_these_finite) are_finite = false;
+  });
+  return are_finite;
+}
+
+/// \returns the bytes that it took; nothing if only reading one by one tells what they mean
+inline std::optional<std::size_t> read_vertices(const Element& element, std::string_view rest, bool is_swapped,
+                                                Polygon_soup& soup) {
+  const std::optional<std::size_t> size = fixed_size_of(element);
+  if (!size || element.number > rest.size() / *size || !soup.points.empty()) return std::nullopt;
+  std::array<std::size_t, 3> offset{};
+  std::array<Scalar, 3> type{};
+  std::size_t before = 0;
+  for (const Property& property : element.properties) {
+    if (property.meaning != Meaning::other) {
+      offset[static_cast<std::size_t>(property.meaning)] = before;
+      type[static_cast<std::size_t>(property.meaning)] = property.type;
+    }
+    before += size_of(property.type);
+  }
+  const auto is = [&](Scalar wanted) { return type == std::array{wanted, wanted, wanted}; };
+  if (!is(Scalar::float32) && !is(Scalar::float64)) return std::nullopt;
+  soup.points.resize(element.number);
+  const bool are_finite = is(Scalar::float32)
+                              ? read_points<float>(rest.data(), is_swapped, *size, offset, soup.points)
+                              : read_points<double>(rest.data(), is_swapped, *size, offset, soup.points);
+  return are_finite ? std::optional(element.number * *size) : std::nullopt;
+}
+
+/// Faces with one list and numbers of 32 bits in it.
+struct Face_layout {
+  std::size_t before = 0, after = 0;  ///< bytes beside the list
+  std::size_t size_of_size = 0;
+  std::uint32_t largest_size = 0;  ///< that the type of the size can hold
+  bool is_swapped = false;
+
+  std::uint32_t number_of_corners(const char* bytes) const {
+    if (size_of_size == 1) return load_number<std::uint8_t>(bytes, false);
+    return size_of_size == 2 ? load_number<std::uint16_t>(bytes, is_swapped)
+                             : load_number<std::uint32_t>(bytes, is_swapped);
+  }
+};
+
+/// \returns nothing for other faces
+inline std::optional<Face_layout> layout_of_faces(const Element& element, bool is_swapped) {
+  Face_layout layout;
+  layout.is_swapped = is_swapped;
+  for (const Property& property : element.properties) {
+    if (!property.is_list) {
+      (layout.size_of_size == 0 ? layout.before : layout.after) += size_of(property.type);
+      continue;
+    }
+    const Scalar type = property.type_of_size;
+    const bool is_signed = type == Scalar::int8 || type == Scalar::int16 || type == Scalar::int32;
+    const bool is_32_bits = property.type == Scalar::int32 || property.type == Scalar::uint32;
+    if (property.meaning != Meaning::corners || !is_32_bits || type > Scalar::uint32) return std::nullopt;
+    layout.size_of_size = size_of(type);
+    layout.largest_size = 0xffffffffU >> (32 - 8 * layout.size_of_size) >> (is_signed ? 1 : 0);
+  }
+  return layout.size_of_size > 0 ? std::optional(layout) : std::nullopt;
+}
+
+/// Some faces one after the other: where their bytes and their corners begin.
+struct Run_of_faces {
+  std::size_t byte = 0, corner = 0;
+};
+
+/// Goes from face to face, and notes where runs of `elements_at_once` of them begin, and the end.
+/// \returns nothing if there are not as many
+inline std::vector<Run_of_faces> runs_of_faces(const Face_layout& layout, std::uint64_t faces, std::string_view rest) {
+  std::vector<Run_of_faces> runs;
+  Run_of_faces here;
+  const std::size_t size_without_corners = layout.before + layout.size_of_size + layout.after;
+  for (std::uint64_t f = 0; f < faces; ++f) {
+    if (f % elements_at_once == 0) runs.push_back(here);
+    if (size_without_corners > rest.size() - here.byte) return {};
+    const std::uint32_t corners = layout.number_of_corners(rest.data() + here.byte + layout.before);
+    here.byte += size_without_corners;
+    if (corners > layout.largest_size || corners > (rest.size() - here.byte) / sizeof(std::uint32_t)) return {};
+    here.byte += corners * sizeof(std::uint32_t);
+    here.corner += corners;
+  }
+  runs.push_back(here);
+  return runs;
+}
+
+/// \returns the bytes that it took; nothing if only reading one by one tells what they mean
+inline std::optional<std::size_t> read_faces(const Element& element, std::string_view rest, bool is_swapped,
+                                             std::uint64_t number_of_vertices, Polygon_soup& soup) {
+  constexpr std::uint64_t signed_vertices = std::numeric_limits<std::int32_t>::max();
+  const std::optional<Face_layout> layout = layout_of_faces(element, is_swapped);
+  if (!layout || number_of_vertices > signed_vertices || soup.number_of_faces() > 0) return std::nullopt;
+  const std::vector<Run_of_faces> runs = runs_of_faces(*layout, element.number, rest);
+  if (runs.empty()) return std::nullopt;
+  soup.corners.resize(runs.back().corner);
+  soup.first_corner.resize(element.number + 1);
+  std::atomic<bool> are_vertices = true;
+  for_each_piece(runs.size() - 1, [&](std::size_t i) {
+    const char* byte = rest.data() + runs[i].byte;
+    std::size_t corner = runs[i].corner;
+    std::uint32_t largest = 0;
+    const std::size_t end = std::min<std::size_t>((i + 1) * elements_at_once, element.number);
+    for (std::size_t f = i * elements_at_once; f < end; ++f) {
+      byte += layout->before;
+      const std::uint32_t corners = layout->number_of_corners(byte);
+      byte += layout->size_of_size;
+      for (std::uint32_t j = 0; j < corners; ++j, ++corner, byte += sizeof(std::uint32_t)) {
+        soup.corners[corner] = load_number<std::uint32_t>(byte, is_swapped);
+        largest = std::max(largest, soup.corners[corner]);
+      }
+      byte += layout->after;
+      soup.first_corner[f + 1] = corner;
+    }
+    if (runs[i + 1].corner > runs[i].corner && largest >= number_of_vertices) are_vertices = false;
+  });
+  return are_vertices ? std::optional(runs.back().byte) : std::nullopt;
+}
+
+/// Reads the elements of a binary file whose types are the usual ones.
+/// \returns nothing for other files, and for those in which something is wrong, which reading one by one tells
+inline std::optional<Polygon_soup> read_usual_elements(const Header& header, std::uint64_t number_of_vertices,
+                                                       std::string_view rest) {
+  const bool is_swapped =
+      (header.encoding == Encoding::big_endian) != (boost::endian::order::native == boost::endian::order::big);
+  Polygon_soup soup;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty() || element.number == 0) continue;
+    std::optional<std::size_t> bytes;
+    if (element.name == "vertex")
+      bytes = read_vertices(element, rest, is_swapped, soup);
+    else if (element.name == "face")
+      bytes = read_faces(element, rest, is_swapped, number_of_vertices, soup);
+    else if (const auto size = fixed_size_of(element); size && element.number <= rest.size() / *size)
+      bytes = element.number * *size;
+    if (!bytes) return std::nullopt;
+    rest.remove_prefix(*bytes);
+  }
+  return soup;
+}
+
 }  // namespace ply
 
 /// Reads a PLY file, text or binary; strips of triangles come after the faces. Properties other than the points and the corners of the faces are passed over.
@@ -316,6 +519,9 @@ inline Polygon_soup read_ply(const std::string& path, std::string_view content) 
   const ply::Header header = ply::read_header(text);
   ply::check_header(header, text);
   const std::uint64_t vertices = ply::element_called("vertex", header)->number;
+  if (header.encoding != ply::Encoding::text)
+    if (std::optional<Polygon_soup> soup = ply::read_usual_elements(header, vertices, text.rest()))
+      return std::move(*soup);
   switch (header.encoding) {
     case ply::Encoding::little_endian:
       return ply::read_elements(header, vertices, ply::Binary_values<boost::endian::order::little>(path, text.rest()));

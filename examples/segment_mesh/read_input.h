@@ -15,10 +15,10 @@ namespace segment_mesh {
 /// Reads a mesh, by Assimp if it is of a format that nothing here reads.
 /// \throws mesh_files::Unreadable_file
 inline mesh_files::Polygon_soup read_input(const std::string& path, const std::optional<mesh_files::Format>& format) {
-  const std::string content = mesh_files::read_content(path);
-  const std::string extension = format ? "" : extension_for_assimp(path, content);
-  return extension.empty() ? mesh_files::mesh_of_content(path, content, format)
-                           : read_by_assimp(path, content, extension);
+  const mesh_files::File_content content(path);
+  const std::string extension = format ? "" : extension_for_assimp(path, content.bytes());
+  return extension.empty() ? mesh_files::mesh_of_content(path, content.bytes(), format)
+                           : read_by_assimp(path, content.bytes(), extension);
 }
 
 /// \throws mesh_files::Unreadable_file

@@ -39,6 +39,14 @@ inline void end_at_once(int) {
   ::_exit(cancelled);
 }
 
+/// Ends the program when a mesh file, which memory is mapped to, is shortened while it is read.
+inline void end_for_lost_file(int) {
+  mesh_files::Partial_files::remove_all();
+  constexpr std::string_view message = "segment_mesh: a file was shortened while it was read\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(unreadable_input);
+}
+
 /// Asks the work to end; where it does not in a time that people hardly notice, and at the second signal, the program ends.
 inline void interrupt(int signal) {
   constexpr int patience_in_microseconds = 250000;

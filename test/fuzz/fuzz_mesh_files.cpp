@@ -17,13 +17,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     const auto read = [&]() -> mesh_files::Polygon_soup {
+      const std::size_t size_of_a_piece = 1 + data[0] / 8 * std::size_t(16);
       switch (data[0] % 8) {
         case 0:
-          return mesh_files::read_off("file", content);
+          return mesh_files::read_off("file", content, size_of_a_piece);
         case 1:
           return mesh_files::read_ply("file", content);
         case 2:
-          return mesh_files::read_obj("file", content);
+          return mesh_files::read_obj("file", content, size_of_a_piece);
         case 3:
           return mesh_files::read_stl("file", content);
         case 5:
