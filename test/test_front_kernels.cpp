@@ -195,7 +195,7 @@ TEST(FrontKernels, SelectTheLargestPotentialAndTheFirstOfEqualOnes) {
   for (const Instruction_set set : instruction_sets()) {
     std::vector<double> largest(count, -1.), best(count, -1.), total(count, 0.);
     for (std::size_t l = 0; l < ranks; ++l)
-      select_largest(potential[l].data(), static_cast<double>(l), count, largest.data(), best.data(), total.data(),
+      select_largest(potential[l].data(), static_cast<double>(l), count, {largest.data(), best.data(), total.data()},
                      set);
     for (std::size_t i = 0; i < count; ++i) {
       double sum = 0, first = 0;
