@@ -83,10 +83,12 @@ class File_content {
 
  private:
   void map(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // nobody may write to a pipe
-    if (file < 0) return;
     struct stat status {};
-    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+    // Whoever writes to a pipe must not see it opened and closed again.
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    if (::fstat(file, &status) == 0 && status.st_size > 0) {
       size_ = static_cast<std::size_t>(status.st_size);
       void* const memory = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0);
       if (memory != MAP_FAILED) mapped_ = memory;
