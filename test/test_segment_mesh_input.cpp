@@ -189,6 +189,7 @@ TEST_F(Segment_mesh_shell, StandardInputIsAMesh) {
        {"cat m.off | $TOOL - --segments 1 --labels l.seg", "$TOOL /dev/stdin --segments 1 --labels l.seg <m.off",
         "cat m.off | $TOOL /dev/stdin --segments 1 --labels l.seg", "$TOOL <(cat m.off) --segments 1 --labels l.seg",
         "gzip -c m.off | $TOOL - --segments 1 --labels l.seg",
+        "mkfifo p && { cat m.off >p & } && $TOOL p --segments 1 --labels l.seg && wait $! && rm p",
         "cat m.off | $TOOL --segments 1 --labels l.seg --report r.json - && grep -q 'mesh\":\"-\"' r.json"}) {
     const Result result = shell(command);
     EXPECT_EQ(result.exit_code, 0) << command << result.errors;
