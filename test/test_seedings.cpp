@@ -210,8 +210,10 @@ TEST(Seedings, TakeEveryMeshThatOneSeedingTakes) {
     const Mesh mesh = meshes::surface_mesh(shape);
     auto without_thickness = thorough();
     without_thickness.merge_cost.thickness.samples = 0;
-    for (const Automatic_segmentation& policies : {thorough(), without_thickness})
-      for (const auto& merge : hierarchy_via_random_walks(mesh, policies).merges()) EXPECT_GE(merge.cost, 0);
+    for (const Automatic_segmentation& policies : {thorough(), without_thickness}) {
+      const auto hierarchy = hierarchy_via_random_walks(mesh, policies);
+      for (const auto& merge : hierarchy.merges()) EXPECT_GE(merge.cost, 0);
+    }
   }
 }
 
