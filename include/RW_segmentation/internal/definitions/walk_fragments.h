@@ -5,7 +5,7 @@
 
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/walk/Face_clusters.h>
-#include <RW_segmentation/internal/walk/Graph_walk.h>
+#include <RW_segmentation/internal/walk/Seeded_walk.h>
 #include <RW_segmentation/internal/walk/settle_band.h>
 #include <RW_segmentation/internal/walk/walk_fragments.h>
 
@@ -28,7 +28,7 @@ RW_SEGMENTATION_INLINE Fragments walk_fragments(const Walk_network& network, Any
     if (seeds_in[component.of[seed]] > 1) walked.push_back(seed);
   if (walked.empty()) return {{component.of.begin(), component.of.end()}};
 
-  Graph_walk walk(network.graph, network.conductances, std::move(analysed), progress);
+  Seeded_walk walk(network.graph, network.conductances, std::move(analysed), progress);
   walk.solver_is_analysed();
   for (std::size_t s = 0; s < walked.size(); ++s) walk.add_seed(walked[s], s);
   return {walk.labels(), walk.report().island_faces};

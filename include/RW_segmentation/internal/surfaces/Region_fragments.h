@@ -8,7 +8,7 @@
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Creases.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
-#include <RW_segmentation/internal/walk/Graph_walk.h>
+#include <RW_segmentation/internal/walk/Seeded_walk.h>
 
 #include <Eigen/Core>
 

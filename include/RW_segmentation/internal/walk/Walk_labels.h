@@ -6,7 +6,6 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/internal/solver/front_kernels.h>
-#include <RW_segmentation/internal/walk/Seed_columns.h>
 #include <RW_segmentation/internal/walk/Seed_set.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
 
@@ -94,8 +93,11 @@ class Walk_labels {
   }
 
   /// Takes the potentials of all labels, each the sum of the columns of its seeds.
-  /// \returns false if those of some reached face do not add up to 1: digits were lost
-  bool compare(const Walk_network& network, const std::vector<Seed_columns::Column>& columns, const Seed_set& seeds);
+  /// \param columns_of by rank: potentials by face
+  /// \param is_seeded by component
+  /// \returns false if those of some reached face do not add up to 1 within `tolerance`: digits were lost
+  bool compare_sums(const Walk_network& network, const std::vector<std::vector<const double*>>& columns_of,
+                    const std::vector<char>& is_seeded, double tolerance);
 
   /// Gives each component without a seed the next unused label.
   /// \returns how many there are
@@ -111,12 +113,9 @@ class Walk_labels {
   std::vector<double> largest_;            // by face
 };
 
-inline bool Walk_labels::compare(const Walk_network& network, const std::vector<Seed_columns::Column>& columns,
-                                 const Seed_set& seeds) {
-  std::vector<std::vector<const double*>> columns_of(number_of_seed_labels_);
-  const std::vector<char> is_seeded = seeded_components(network, seeds);
-  for (const auto& column : columns)
-    columns_of[rank_of(seeds.label_of(column.face))].push_back(column.potential.data());
+inline bool Walk_labels::compare_sums(const Walk_network& network,
+                                      const std::vector<std::vector<const double*>>& columns_of,
+                                      const std::vector<char>& is_seeded, double tolerance) {
   const Instruction_set instructions = best_instruction_set();
   std::atomic<bool> sums_are_right = true;
   for_stretches(network, [&](std::size_t begin, std::size_t end) {
@@ -137,7 +136,7 @@ inline bool Walk_labels::compare(const Walk_network& network, const std::vector<
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_seeded[network.component.of[begin + i]]) continue;
-      if (!(std::abs(total[i] - 1) < 10 * Seed_columns::accepted_error)) sums_are_right = false;
+      if (!(std::abs(total[i] - 1) < tolerance)) sums_are_right = false;
       rank_[begin + i] = static_cast<Index>(best[i]);
     }
   });

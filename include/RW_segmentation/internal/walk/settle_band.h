@@ -6,7 +6,7 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/walk/Face_clusters.h>
-#include <RW_segmentation/internal/walk/Graph_walk.h>
+#include <RW_segmentation/internal/walk/Seeded_walk.h>
 
 #include <algorithm>
 #include <array>
