@@ -1,5 +1,5 @@
 #include <RW_segmentation/internal/mesh/Components.h>
-#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/mesh/closest_face.h>
 #include <RW_segmentation/internal/walk/spurious_regions.h>
 #include <RW_segmentation/transfer_segments.h>
 

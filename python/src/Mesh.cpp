@@ -5,7 +5,7 @@
 #include "definitions.h"
 #include "without_lock.h"
 
-#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/mesh/closest_face.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>

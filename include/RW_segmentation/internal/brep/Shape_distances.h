@@ -6,7 +6,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
 #include <RW_segmentation/internal/brep/Patch.h>
-#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/mesh/closest_face.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/squared_distance_3.h>

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,7 +28,8 @@ RW_SEGMENTATION_INLINE Unit_box::Unit_box(const std::vector<Eigen::Vector3d>& po
   for (const Eigen::Vector3d& p : points) box.extend(p);
   if (box.isEmpty()) return;
   origin = box.min() / 2 + box.max() / 2;
-  const double diagonal = 2 * (box.max() / 2 - box.min() / 2).stableNorm();
+  const Eigen::Vector3d half = box.max() / 2 - box.min() / 2;
+  const double diagonal = 2 * std::hypot(half.x(), half.y(), half.z());
   if (diagonal >= std::numeric_limits<double>::min()) unit = diagonal;
   const double largest_coordinate = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   rounding = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * (1 / unit));

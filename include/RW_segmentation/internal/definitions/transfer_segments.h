@@ -4,7 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TRANSFER_SEGMENTS_H
 
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/mesh/closest_face.h>
 #include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/rank_labels.h>
 #include <RW_segmentation/internal/walk/settle_band.h>

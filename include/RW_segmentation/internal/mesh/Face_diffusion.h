@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -60,7 +61,7 @@ class Face_diffusion {
       set_residual(x0, x, level);
     }
     Block correction(n, Vector::Zero()), direction(n, Vector::Zero()), image(n);
-    Sums previous = Sums::Ones();
+    Sums previous = {1, 1, 1};
     double first = 0, least = std::numeric_limits<double>::infinity();
     int last_gain = 0;
     for (int iteration = 0;; ++iteration) {
@@ -77,23 +78,37 @@ class Face_diffusion {
 
       const Sums energy = dot(residual, preconditioned);
       const Vector beta = quotient(energy, previous, n);
-      for (std::size_t i = 0; i < n; ++i) direction[i] = preconditioned[i] + beta.cwiseProduct(direction[i]);
+      for (std::size_t i = 0; i < n; ++i) {
+        direction[i] = product(beta, direction[i]);
+        direction[i] += preconditioned[i];
+      }
       apply(level, direction, image);
       const Vector alpha = quotient(energy, dot(direction, image), n);
       for (std::size_t i = 0; i < n; ++i) {
-        correction[i] += alpha.cwiseProduct(direction[i]);
-        residual[i] -= alpha.cwiseProduct(image[i]);
+        correction[i] += product(alpha, direction[i]);
+        residual[i] -= product(alpha, image[i]);
       }
       previous = energy;
     }
-    for (std::size_t i = 0; i < n; ++i) x[i] += (correction[i] + preconditioned[i]).head<3>().cast<double>();
+    for (std::size_t i = 0; i < n; ++i) {
+      correction[i] += preconditioned[i];
+      for (Eigen::Index c = 0; c < 3; ++c) x[i][c] += static_cast<double>(correction[i][c]);
+    }
   }
 
  private:
   using Index = Dual_graph::Index;
   using Vector = Eigen::Vector4f;  // three coordinates, padded to a register
   using Block = std::vector<Vector>;
-  using Sums = Eigen::Array4d;
+  using Sums = std::array<double, 3>;
+
+  // Few kinds of expressions, since each kind takes its time to compile.
+  static Vector scaled(float factor, const Vector& v) { return factor * v; }
+  static Vector product(const Vector& a, const Vector& b) { return a.cwiseProduct(b); }
+  static Vector difference(const Vector& a, const Vector& b) { return a - b; }
+  static Vector in_single_precision(const Eigen::Vector3d& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
+  }
 
   struct Link {
     Index to;
@@ -293,10 +308,11 @@ class Face_diffusion {
   static void set_residual(const std::vector<Eigen::Vector3d>& x0, const std::vector<Eigen::Vector3d>& x,
                            Level& level) {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Eigen::Vector3d sum = level.mass[i] * (x0[i] - x[i]);
+      const auto difference_to_x = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - x[i]); };
+      Eigen::Vector3d sum = level.mass[i] * difference_to_x(x0[i]);
       for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
-        sum += level.links[k].weight * (x[level.links[k].to] - x[i]);
-      level.right[i] << sum.cast<float>(), 0;
+        sum += level.links[k].weight * difference_to_x(x[level.links[k].to]);
+      level.right[i] = in_single_precision(sum);
     }
   }
 
@@ -331,9 +347,9 @@ class Face_diffusion {
   /// `y` = (diag(A) + t Lap) `x`, by differences, so that no stiff link cancels what the others say.
   static void apply(const Level& level, const Block& x, Block& y) {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Vector sum = level.mass[i] * x[i];
+      Vector sum = scaled(level.mass[i], x[i]);
       for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
-        sum += level.links[k].weight * (x[i] - x[level.links[k].to]);
+        sum += scaled(level.links[k].weight, difference(x[i], x[level.links[k].to]));
       y[i] = sum;
     }
   }
@@ -364,13 +380,13 @@ class Face_diffusion {
     Block& x = level.solution;
     std::fill(coarse.right.begin(), coarse.right.end(), Vector::Zero());
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Vector residual = level.right[i] - level.mass[i] * x[i];
+      Vector residual = difference(level.right[i], scaled(level.mass[i], x[i]));
       for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
-        residual += level.links[k].weight * (x[level.links[k].to] - x[i]);
+        residual += scaled(level.links[k].weight, difference(x[level.links[k].to], x[i]));
       coarse.right[level.aggregate[i]] += residual;
     }
     cycle(depth + 1);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += over_correction * coarse.solution[level.aggregate[i]];
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += scaled(over_correction, coarse.solution[level.aggregate[i]]);
   }
 
   static void sweep_forward(Level& level) {
@@ -384,15 +400,16 @@ class Face_diffusion {
   static void relax(Level& level, std::size_t i) {
     Vector sum = level.right[i];
     for (std::size_t k = level.row[i]; k < level.row[i + 1]; ++k)
-      sum += level.links[k].weight * level.solution[level.links[k].to];
-    level.solution[i] = level.inverse_diagonal[i] * sum;
+      sum += scaled(level.links[k].weight, level.solution[level.links[k].to]);
+    level.solution[i] = scaled(level.inverse_diagonal[i], sum);
   }
 
   /// The root mean square of |change| / |x + correction|, each at most 1.
   static double relative_change(const std::vector<Eigen::Vector3d>& x, const Block& correction, const Block& change) {
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Eigen::Vector3f vector = x[i].cast<float>() + correction[i].head<3>();
+      Vector vector = in_single_precision(x[i]);
+      vector += correction[i];
       sum += std::min(1.F, change[i].squaredNorm() / std::max(vector.squaredNorm(), 1e-30F));
     }
     return std::sqrt(sum / static_cast<double>(x.size()));
@@ -401,11 +418,11 @@ class Face_diffusion {
   /// The scalar products of the coordinates, in double precision from block to block.
   static Sums dot(const Block& x, const Block& y) {
     constexpr std::size_t block = 1024;
-    Sums total = Sums::Zero();
+    Sums total = {0, 0, 0};
     for (std::size_t begin = 0; begin < x.size(); begin += block) {
       Vector sum = Vector::Zero();
-      for (std::size_t i = begin; i < std::min(begin + block, x.size()); ++i) sum += x[i].cwiseProduct(y[i]);
-      total += sum.cast<double>().array();
+      for (std::size_t i = begin; i < std::min(begin + block, x.size()); ++i) sum += product(x[i], y[i]);
+      for (std::size_t c = 0; c < total.size(); ++c) total[c] += static_cast<double>(sum[static_cast<Eigen::Index>(c)]);
     }
     return total;
   }
@@ -415,7 +432,11 @@ class Face_diffusion {
   /// \param denominator sums of `terms` products
   static Vector quotient(const Sums& numerator, const Sums& denominator, std::size_t terms) {
     const double smallest = 16. * std::numeric_limits<float>::denorm_min() * static_cast<double>(terms);
-    return (denominator > smallest).select(numerator / denominator, 0).matrix().cast<float>();
+    Vector result = Vector::Zero();
+    for (std::size_t c = 0; c < numerator.size(); ++c)
+      if (denominator[c] > smallest)
+        result[static_cast<Eigen::Index>(c)] = static_cast<float>(numerator[c] / denominator[c]);
+    return result;
   }
 
   std::vector<Level> levels_;

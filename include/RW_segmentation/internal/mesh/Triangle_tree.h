@@ -6,9 +6,6 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Dual_mesh.h>
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/squared_distance_3.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -47,6 +44,28 @@ inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh) {
   return fan_triangles(mesh, mesh.number_of_faces());
 }
 
+/// An axis-parallel box in single precision, empty at first.
+struct Float_box {
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<float, 3> least = {infinity, infinity, infinity};
+  std::array<float, 3> greatest = {-infinity, -infinity, -infinity};
+
+  void extend(const Eigen::Vector3d& point, float margin) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto x = static_cast<float>(point[static_cast<Eigen::Index>(axis)]);
+      least[axis] = std::min(least[axis], x - margin);
+      greatest[axis] = std::max(greatest[axis], x + margin);
+    }
+  }
+
+  void extend(const Float_box& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], other.least[axis]);
+      greatest[axis] = std::max(greatest[axis], other.greatest[axis]);
+    }
+  }
+};
+
 /// A tree of boxes over triangles, in which rays find where they leave the solid.
 ///
 /// Triangles are sorted along a Morton curve and halved in that order again and again. Building it takes no more than
@@ -62,8 +81,12 @@ class Triangle_tree {
     while (leaves_ * triangles_per_leaf < triangles_.size()) leaves_ *= 2;
     boxes_.resize(2 * leaves_);
     for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
-      for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i) boxes_[leaves_ + leaf].extend(box(i));
-    for (std::size_t node = leaves_; node-- > 1;) boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
+      for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i)
+        extend_by_triangle(boxes_[leaves_ + leaf], triangles_[i]);
+    for (std::size_t node = leaves_; node-- > 1;) {
+      boxes_[node] = boxes_[2 * node];
+      boxes_[node].extend(boxes_[2 * node + 1]);
+    }
   }
 
   /// Along the Morton curve, in which neighbours in the order are mostly neighbours in space.
@@ -74,32 +97,28 @@ class Triangle_tree {
   /// \param direction a unit vector
   double exit_distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, Index start) const;
 
-  /// The face of the triangle that is closest to a point, the lowest on a tie, among those that look into a direction
+  /// Defined in `closest_face.h`. The face of the triangle that is closest to a point, the lowest on a tie, among those that look into a direction
   /// rather than away from it; nothing if there is none. Any triangle with an area will do for the zero vector.
   std::optional<Index> closest_face(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
 
  private:
-  using Box = Eigen::AlignedBox3f;
   static constexpr std::size_t triangles_per_leaf = 4;
 
   std::size_t leaf_begin(std::size_t leaf) const { return leaf * triangles_.size() / leaves_; }
 
-  /// The box of a triangle, larger by more than the rounding of its coordinates, which lie between -1 and 1.
-  Box box(std::size_t triangle) const {
+  /// By more than the triangle: by the rounding of its coordinates, which lie between -1 and 1.
+  static void extend_by_triangle(Float_box& box, const Fan_triangle& triangle) {
     constexpr float margin = 1e-6f;
-    const auto& [corner, first_side, second_side, face] = triangles_[triangle];
-    const Eigen::Vector3f a = corner.cast<float>();
-    Box result(a);
-    result.extend((corner + first_side).cast<float>());
-    result.extend((corner + second_side).cast<float>());
-    return Box(result.min().array() - margin, result.max().array() + margin);
+    box.extend(triangle.corner, margin);
+    box.extend(triangle.corner + triangle.first_side, margin);
+    box.extend(triangle.corner + triangle.second_side, margin);
   }
 
   void sort_along_curve();
 
   std::vector<Fan_triangle> triangles_;
   std::size_t leaves_ = 1;
-  std::vector<Box> boxes_;  // of node 1, the root; children of node i are 2 i and 2 i + 1
+  std::vector<Float_box> boxes_;  // of node 1, the root; children of node i are 2 i and 2 i + 1
 };
 
 inline void Triangle_tree::sort_along_curve() {
@@ -132,15 +151,23 @@ inline double Triangle_tree::exit_distance(const Eigen::Vector3d& origin, const 
                                            Index start) const {
   constexpr double nearest = 1e-9;  // of the box: the surface at the origin itself
   constexpr float none = std::numeric_limits<float>::infinity();
-  const Eigen::Array3f o = origin.cast<float>();
-  const Eigen::Array3f d = direction.cast<float>();
-  const Eigen::Array3f slope = (d.abs() < 1e-12f).select(1e-12f, d).inverse();
+  std::array<float, 3> start_of_ray, slope;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto along = static_cast<float>(direction[static_cast<Eigen::Index>(axis)]);
+    start_of_ray[axis] = static_cast<float>(origin[static_cast<Eigen::Index>(axis)]);
+    slope[axis] = 1 / (std::abs(along) < 1e-12f ? 1e-12f : along);
+  }
   double exit = std::numeric_limits<double>::infinity();
   const auto entry = [&](std::size_t node) {
-    const Eigen::Array3f t0 = (boxes_[node].min().array() - o) * slope;
-    const Eigen::Array3f t1 = (boxes_[node].max().array() - o) * slope;
-    const float in = std::max(t0.min(t1).maxCoeff(), 0.f);
-    return in <= t0.max(t1).minCoeff() && in <= static_cast<float>(exit) ? in : none;
+    const Float_box& box = boxes_[node];
+    float in = 0, out = none;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float t0 = (box.least[axis] - start_of_ray[axis]) * slope[axis];
+      const float t1 = (box.greatest[axis] - start_of_ray[axis]) * slope[axis];
+      in = std::max(in, std::min(t0, t1));
+      out = std::min(out, std::max(t0, t1));
+    }
+    return in <= out && in <= static_cast<float>(exit) ? in : none;
   };
 
   struct Node {
@@ -177,51 +204,6 @@ inline double Triangle_tree::exit_distance(const Eigen::Vector3d& origin, const 
     }
   }
   return exit;
-}
-
-inline std::optional<Dual_graph::Index> Triangle_tree::closest_face(const Eigen::Vector3d& point,
-                                                                    const Eigen::Vector3d& direction) const {
-  using Kernel = CGAL::Simple_cartesian<double>;
-  const auto kernel_point = [](const Eigen::Vector3d& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
-  const Kernel::Point_3 from = kernel_point(point);
-  const Eigen::Vector3f position = point.cast<float>();
-  std::optional<Index> closest;
-  double least = std::numeric_limits<double>::infinity();
-  // Boxes are wider than their triangles by more than the rounding of this.
-  const auto is_near = [&](float squared_distance) { return static_cast<double>(squared_distance) <= least; };
-
-  struct Node {
-    std::size_t node;
-    float squared_distance;
-  };
-  std::array<Node, 64> open;  // at most one a level
-  std::size_t number_open = 0;
-  if (!triangles_.empty()) open[number_open++] = {1, 0};
-  while (number_open > 0) {
-    const auto [node, squared_distance] = open[--number_open];
-    if (!is_near(squared_distance)) continue;
-    if (node < leaves_) {
-      Node near = {2 * node, boxes_[2 * node].squaredExteriorDistance(position)};
-      Node far = {2 * node + 1, boxes_[2 * node + 1].squaredExteriorDistance(position)};
-      if (far.squared_distance < near.squared_distance) std::swap(near, far);
-      if (is_near(far.squared_distance)) open[number_open++] = far;
-      if (is_near(near.squared_distance)) open[number_open++] = near;
-      continue;
-    }
-    for (std::size_t i = leaf_begin(node - leaves_); i < leaf_begin(node - leaves_ + 1); ++i) {
-      const auto& [corner, first_side, second_side, face] = triangles_[i];
-      const Eigen::Vector3d area_vector = first_side.cross(second_side);
-      if (area_vector.isZero(0) || (!direction.isZero(0) && !(area_vector.dot(direction) > 0))) continue;
-      const double distance =
-          CGAL::squared_distance(from, Kernel::Triangle_3(kernel_point(corner), kernel_point(corner + first_side),
-                                                          kernel_point(corner + second_side)));
-      if (distance < least || (distance == least && closest && face < *closest)) {
-        least = distance;
-        closest = face;
-      }
-    }
-  }
-  return closest;
 }
 
 }  // namespace RW_segmentation::internal
