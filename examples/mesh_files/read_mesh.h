@@ -3,6 +3,7 @@
 #ifndef MESH_FILES_READ_MESH_H
 #define MESH_FILES_READ_MESH_H
 
+#include "Format.h"
 #include "Polygon_soup.h"
 #include "Text.h"
 #include "read_content.h"
@@ -15,46 +16,14 @@
 #include "read_vtp.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace mesh_files {
-
-/// The extension of a path in lower case, with the dot.
-inline std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-/// The formats that are read.
-enum class Format { off, ply, obj, stl, msh, medit, vtp };
-
-/// What files of a format end with, without the dot.
-inline const std::array<std::pair<const char*, Format>, 8> format_names = {{{"off", Format::off},
-                                                                            {"ply", Format::ply},
-                                                                            {"obj", Format::obj},
-                                                                            {"stl", Format::stl},
-                                                                            {"msh", Format::msh},
-                                                                            {"mesh", Format::medit},
-                                                                            {"meshb", Format::medit},
-                                                                            {"vtp", Format::vtp}}};
-
-/// The format that a path names, before ".gz" if that is there.
-inline std::optional<Format> format_of_path(const std::string& path) {
-  std::string extension = extension_of(path);
-  if (extension == ".gz") extension = extension_of(std::filesystem::path(path).stem().string());
-  for (const auto& [name, format] : format_names)
-    if (extension == std::string(".") + name) return format;
-  return std::nullopt;
-}
 
 /// The format whose mark a content has.
 inline std::optional<Format> format_of_content(std::string_view content) {

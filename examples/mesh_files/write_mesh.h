@@ -4,6 +4,7 @@
 #define MESH_FILES_WRITE_MESH_H
 
 #include "Colors.h"
+#include "Format.h"
 #include "Output.h"
 #include "Polygon_soup.h"
 #include "Segmented_soup.h"
@@ -25,16 +26,6 @@
 #include <vector>
 
 namespace mesh_files {
-
-/// The formats of meshes that are written.
-enum class Output_format { ply, off, obj, stl, text_stl, glb, three_mf, msh, medit, vtp };
-
-/// What files of a format end with, without the dot; the last one is told from the other STL by its name only.
-inline const std::vector<std::pair<std::string, Output_format>> output_format_names = {
-    {"ply", Output_format::ply},          {"off", Output_format::off},    {"obj", Output_format::obj},
-    {"stl", Output_format::stl},          {"glb", Output_format::glb},    {"3mf", Output_format::three_mf},
-    {"msh", Output_format::msh},          {"mesh", Output_format::medit}, {"vtp", Output_format::vtp},
-    {"stl-text", Output_format::text_stl}};
 
 /// What concerns some formats only.
 struct Output_choices {

@@ -3,7 +3,7 @@
 #ifndef SEGMENT_MESH_CAD_FORMAT_H
 #define SEGMENT_MESH_CAD_FORMAT_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Format.h"
 
 #include <optional>
 #include <stdexcept>

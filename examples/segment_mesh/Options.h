@@ -3,7 +3,11 @@
 #ifndef SEGMENT_MESH_OPTIONS_H
 #define SEGMENT_MESH_OPTIONS_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Format.h"
+#include "../mesh_files/Output_file.h"
+#include "../mesh_files/Polygon_soup.h"
+#include "../mesh_files/Text.h"
+#include "../mesh_files/read_content.h"
 #include "Cad_format.h"
 #include "Method.h"
 #include "Oriented_mesh.h"

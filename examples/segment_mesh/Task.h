@@ -3,7 +3,10 @@
 #ifndef SEGMENT_MESH_TASK_H
 #define SEGMENT_MESH_TASK_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Format.h"
+#include "../mesh_files/Output_file.h"
+#include "../mesh_files/Polygon_soup.h"
+#include "../mesh_files/read_content.h"
 #include "Options.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #ifndef SEGMENT_MESH_FAILURE_H
 #define SEGMENT_MESH_FAILURE_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Polygon_soup.h"
 #include "Cad_shape.h"
 #include "Options.h"
 #include "limits.h"

@@ -3,7 +3,11 @@
 #ifndef SEGMENT_MESH_HTML_PAGE_H
 #define SEGMENT_MESH_HTML_PAGE_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Buffer.h"
+#include "../mesh_files/Output_file.h"
+#include "../mesh_files/Polygon_soup.h"
+#include "../mesh_files/read_content.h"
+#include "../mesh_files/write_ply.h"
 #include "Boundaries.h"
 #include "Method.h"
 #include "Options.h"

@@ -3,7 +3,7 @@
 #ifndef SEGMENT_MESH_RUN_H
 #define SEGMENT_MESH_RUN_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Polygon_soup.h"
 #include "Boundaries.h"
 #include "Cad_format.h"
 #include "Cad_shape.h"

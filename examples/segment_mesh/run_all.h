@@ -3,7 +3,9 @@
 #ifndef SEGMENT_MESH_RUN_ALL_H
 #define SEGMENT_MESH_RUN_ALL_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Output_file.h"
+#include "../mesh_files/Polygon_soup.h"
+#include "../mesh_files/read_content.h"
 #include "Options.h"
 #include "Task.h"
 #include "report.h"

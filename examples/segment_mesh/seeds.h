@@ -3,7 +3,8 @@
 #ifndef SEGMENT_MESH_SEEDS_H
 #define SEGMENT_MESH_SEEDS_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Text.h"
+#include "../mesh_files/read_content.h"
 #include "Closest_face.h"
 #include "Oriented_mesh.h"
 

@@ -3,7 +3,9 @@
 #ifndef SEGMENT_MESH_WALLS_H
 #define SEGMENT_MESH_WALLS_H
 
-#include "../mesh_files.h"
+#include "../mesh_files/Polygon_soup.h"
+#include "../mesh_files/Text.h"
+#include "../mesh_files/read_content.h"
 #include "Oriented_mesh.h"
 
 #include <algorithm>

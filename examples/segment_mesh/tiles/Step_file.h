@@ -3,7 +3,9 @@
 #ifndef SEGMENT_MESH_TILES_STEP_FILE_H
 #define SEGMENT_MESH_TILES_STEP_FILE_H
 
-#include "../../mesh_files.h"
+#include "../../mesh_files/Output_file.h"
+#include "../../mesh_files/Polygon_soup.h"
+#include "../../mesh_files/read_content.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+
+#include "Boundaries.h"
+
+#include <RW_segmentation/smooth_boundaries.h>
+#include <RW_segmentation/split_along_boundaries.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace segment_mesh {
+
+Boundary_curves boundary_curves(const Mesh& mesh, const Wall_map& walls, std::vector<std::size_t>& label,
+                                bool is_smooth, const std::function<bool(double)>& callback) {
+  RW_segmentation::Boundary_smoothing smoothing;
+  if (!is_smooth) smoothing.largest_displacement = 0;
+  return RW_segmentation::smooth_boundaries(mesh, face_map(mesh, label), smoothing,
+                                            CGAL::parameters::callback(callback).edge_is_constrained_map(walls));
+}
+
+namespace {
+
+/// Notes which face each new one was part of.
+struct Parent_notes : RW_segmentation::Default_split_visitor<Mesh> {
+  Mesh::Face_index divided;
+  std::shared_ptr<std::vector<Mesh::Face_index>> parent_of_new =  // the library takes a copy of the visitor
+      std::make_shared<std::vector<Mesh::Face_index>>();
+
+  void before_subface_creations(Mesh::Face_index face, const Mesh&) { divided = face; }
+  void after_subface_created(Mesh::Face_index, const Mesh&) { parent_of_new->push_back(divided); }
+};
+
+/// Gives the new faces of a mesh the values of those that they were part of.
+template <class Value>
+void inherit(std::vector<Value>& values, const std::vector<Mesh::Face_index>& parent_of_new) {
+  values.reserve(values.size() + parent_of_new.size());
+  for (const auto f : parent_of_new) values.push_back(values[f]);
+}
+
+}  // namespace
+
+void cut_boundaries(Mesh& mesh, const Boundary_curves& curves, Segmentation& result) {
+  const Parent_notes notes;
+  const auto segment = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:segment").first;
+  for (const auto f : mesh.faces()) segment[f] = result.label[f];
+  RW_segmentation::split_along_boundaries(mesh, curves, segment, CGAL::parameters::visitor(notes));
+  result.label.assign(segment.begin(), segment.end());
+  for (auto& probability : result.probabilities) inherit(probability, *notes.parent_of_new);
+  if (!result.fragment.empty()) inherit(result.fragment, *notes.parent_of_new);
+}
+
+}  // namespace segment_mesh
