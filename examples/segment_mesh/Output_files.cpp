@@ -77,9 +77,9 @@ void Output_files::write_left_out(const std::vector<std::size_t>& faces) {
   if (!files_.left_out.empty()) mesh_files::write_labels(file(files_.left_out), faces);
 }
 
-void Output_files::write_page(const std::string& path, const Mesh& mesh, const Segmentation& result,
-                              std::size_t segments) {
-  if (page_) page_->write(file(files_.html), result_for_page(path, mesh, result, segments, options_));
+void Output_files::write_page(const std::string& path, const Mesh& mesh, const Wall_map& walls,
+                              const Segmentation& result, std::size_t segments) {
+  if (page_) page_->write(file(files_.html), result_for_page(path, mesh, walls, result, segments, options_));
 }
 
 void Output_files::write_boundaries(const Boundary_curves& curves) {

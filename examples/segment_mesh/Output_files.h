@@ -15,6 +15,7 @@
 #include "Task.h"
 #include "close_parts.h"
 #include "segments.h"
+#include "walls.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -59,7 +60,8 @@ class Output_files {
   /// \param faces the numbers of the faces of the file that the mesh lacks
   void write_left_out(const std::vector<std::size_t>& faces);
 
-  void write_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments);
+  void write_page(const std::string& path, const Mesh& mesh, const Wall_map& walls, const Segmentation& result,
+                  std::size_t segments);
 
   void write_boundaries(const Boundary_curves& curves);
 

@@ -14,6 +14,7 @@
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
 #include "report.h"
+#include "walls.h"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -114,15 +115,31 @@ inline Json levels_of(const Segmentation& result) {
 }
 
 /// What a natural shape was segmented by, as a page takes it.
-inline Json policies_for_page(const Method& method) {
-  return {{"difference", name_of(difference_names, method.difference)},
-          {"seeding", name_of(seeding_names, method.seeding)},
-          {"mergeCost", name_of(merge_cost_names, method.merge_cost)}};
+inline Json policies_for_page(const Options& options) {
+  const Method method = method_of(options);
+  Json policies = {{"difference", name_of(difference_names, method.difference)},
+                   {"seeding", name_of(seeding_names, method.seeding)},
+                   {"seedings", method.seedings > 1 ? "several" : "once"},
+                   {"mergeCost", name_of(merge_cost_names, method.merge_cost)}};
+  if (options.radius) policies["radius"] = *options.radius;
+  return policies;
+}
+
+/// The walls as a file for `--constraints` beside the mesh in the page; null without any. Those of a mesh that has been cut
+/// since are not known.
+inline Json walls_for_page(const Mesh& mesh, const Wall_map& walls, const Options& options) {
+  std::string text;
+  if (!options.is_refined)
+    for (const auto e : mesh.edges())
+      if (walls[e])
+        text += std::to_string(std::size_t(mesh.vertex(e, 0))) + " " + std::to_string(std::size_t(mesh.vertex(e, 1))) +
+                "\n";
+  return text.empty() ? Json() : Json(text);
 }
 
 /// A segmentation as a page takes it.
-inline Json result_for_page(const std::string& path, const Mesh& mesh, const Segmentation& result, std::size_t segments,
-                            const Options& options) {
+inline Json result_for_page(const std::string& path, const Mesh& mesh, const Wall_map& walls,
+                            const Segmentation& result, std::size_t segments, const Options& options) {
   std::string ply;
   mesh_files::Buffer out([&](std::string_view bytes) { ply += bytes; });
   mesh_files::write_ply(out, soup_of(mesh), {}, result.label);
@@ -136,7 +153,8 @@ inline Json result_for_page(const std::string& path, const Mesh& mesh, const Seg
           {"hierarchy", levels_of(result)},
           {"segments", segments},
           {"mode", mode},
-          {"policies", mode == "graphical" ? policies_for_page(method_of(options)) : Json()},
+          {"policies", mode == "graphical" ? policies_for_page(options) : Json()},
+          {"walls", walls_for_page(mesh, walls, options)},
           {"seeds", std::move(seeds)}};
 }
 

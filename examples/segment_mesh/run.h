@@ -102,7 +102,7 @@ inline bool has_unsound_shape(const Json& report) {
 inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& constraints,
                          const mesh_files::Polygon_soup& soup, Mesh& mesh) {
   const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
-  mark_constraints(soup, constraints, mesh, walls);
+  mark_constraints(soup.points, constraints, mesh, walls);
   if (options.constraints_angle) mark_sharp_edges(mesh, *options.constraints_angle, walls);
   return walls;
 }
@@ -153,7 +153,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
   files.write(soup, closed ? &*closed : nullptr, faces, result, segments);
   files.write_left_out(left_out);
-  files.write_page(task.mesh, input.mesh, result, all_segments.size());
+  files.write_page(task.mesh, input.mesh, walls, result, all_segments.size());
   stages.end();
   Json report = report_of(task.mesh, soup, input.remarks, left_out.size(), parameters_of(options, method), result,
                           segments, stages.milliseconds());

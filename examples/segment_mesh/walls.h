@@ -3,7 +3,6 @@
 #ifndef SEGMENT_MESH_WALLS_H
 #define SEGMENT_MESH_WALLS_H
 
-#include "../mesh_files/Polygon_soup.h"
 #include "../mesh_files/Text.h"
 #include "../mesh_files/read_content.h"
 #include "Oriented_mesh.h"
@@ -15,6 +14,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,9 +26,9 @@ struct Constraint {
   std::string place;                      ///< where it is given: file and line
 };
 
-/// Reads a file with two vertices a line; blank lines and what follows a `#` are passed over.
-inline std::vector<Constraint> read_constraints(const std::string& path) {
-  const std::string content = mesh_files::read_content(path);
+/// The edges of a file with two vertices a line; blank lines and what follows a `#` are passed over.
+/// \param path names the file in errors
+inline std::vector<Constraint> constraints_in(const std::string& path, std::string_view content) {
   mesh_files::Text text(path, content);
   std::vector<Constraint> constraints;
   while (text.next_line()) {
@@ -37,6 +37,10 @@ inline std::vector<Constraint> read_constraints(const std::string& path) {
     constraints.push_back({{first, second}, path + ":" + std::to_string(text.number_of_line())});
   }
   return constraints;
+}
+
+inline std::vector<Constraint> read_constraints(const std::string& path) {
+  return constraints_in(path, mesh_files::read_content(path));
 }
 
 /// Which edges of a mesh are walls.
@@ -68,17 +72,18 @@ class Edges_by_place {
 };
 
 /// Marks the edges that the user gives.
+/// \param points the vertices of the file
 /// \throws std::invalid_argument if there is no such vertex or edge, naming the line
-inline void mark_constraints(const mesh_files::Polygon_soup& soup, const std::vector<Constraint>& constraints,
+inline void mark_constraints(const std::vector<Point>& points, const std::vector<Constraint>& constraints,
                              const Mesh& mesh, Wall_map walls) {
   if (constraints.empty()) return;
   const Edges_by_place edges(mesh);
   for (const auto& [vertices, place] : constraints) {
     for (const std::uint64_t v : vertices)
-      if (v >= soup.points.size())
-        throw std::invalid_argument(place + ": the file has " + counted(soup.points.size(), "vertex", "vertices") +
+      if (v >= points.size())
+        throw std::invalid_argument(place + ": the file has " + counted(points.size(), "vertex", "vertices") +
                                     ", the first is vertex 0");
-    const auto found = edges.between(soup.points[vertices[0]], soup.points[vertices[1]]);
+    const auto found = edges.between(points[vertices[0]], points[vertices[1]]);
     if (found.empty())
       throw std::invalid_argument(place + ": no edge of the mesh joins vertex " + std::to_string(vertices[0]) +
                                   " and vertex " + std::to_string(vertices[1]));

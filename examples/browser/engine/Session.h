@@ -8,6 +8,7 @@
 #include "../../mesh_files/write_mesh.h"
 #include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
+#include "../../segment_mesh/walls.h"
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
@@ -58,8 +59,15 @@ struct Levels {
 
 /// Curves on the surface, one after the other.
 struct Polylines {
-  std::vector<float> points;          ///< three coordinates each; a closed curve repeats its first point
-  std::vector<std::uint32_t> starts;  ///< the first point of each curve, and the end of the last
+  std::vector<float> points;                ///< three coordinates each; a closed curve repeats its first point
+  std::vector<std::uint32_t> starts = {0};  ///< the first point of each curve, and the end of the last
+
+  void add(const Point& p) {
+    for (int i = 0; i < 3; ++i) points.push_back(static_cast<float>(p[i]));
+  }
+
+  /// Makes a curve of the points added since the last one.
+  void end_curve() { starts.push_back(static_cast<std::uint32_t>(points.size() / 3)); }
 };
 
 /// A file that is kept as its bytes.
@@ -79,7 +87,8 @@ class Session {
  public:
   /// Repairs what the faces of a file need to be a surface.
   /// \throws std::invalid_argument if there is no face
-  explicit Session(const mesh_files::Polygon_soup& soup) : input_(segment_mesh::oriented_mesh(soup, {})) {
+  explicit Session(const mesh_files::Polygon_soup& soup)
+      : points_of_file_(soup.points), input_(segment_mesh::oriented_mesh(soup, {})) {
     if (mesh().number_of_faces() == 0) throw std::invalid_argument("the file holds no face");
   }
 
@@ -102,10 +111,34 @@ class Session {
     return drawn;
   }
 
+  /// Makes walls, which nothing crosses, in place of those before. The walk heeds them once it is prepared.
+  /// \param constraints edges, by the vertices of the file
+  /// \param degrees edges are walls, too, over which the surface turns by more; without it none
+  /// \returns the walls
+  /// \throws std::invalid_argument if there is no such edge; the walls stay then
+  Polylines set_walls(const std::vector<segment_mesh::Constraint>& constraints, std::optional<double> degrees) {
+    const std::vector<bool> former(walls_.begin(), walls_.end());
+    try {
+      std::fill(walls_.begin(), walls_.end(), false);
+      segment_mesh::mark_constraints(points_of_file_, constraints, mesh(), walls_);
+      if (degrees) segment_mesh::mark_sharp_edges(mesh(), *degrees, walls_);
+    } catch (...) {
+      std::copy(former.begin(), former.end(), walls_.begin());
+      throw;
+    }
+    Polylines lines;
+    for (const auto e : mesh().edges()) {
+      if (!walls_[e]) continue;
+      for (const int end : {0, 1}) lines.add(mesh().point(mesh().vertex(e, end)));
+      lines.end_curve();
+    }
+    return lines;
+  }
+
   /// Makes the walk anew for other numbers; the seeds stay.
   void prepare(double convex_weight, double sigma) {
     namespace RW = RW_segmentation;
-    const RW::Dual_mesh_of dual(mesh());
+    const RW::Dual_mesh_of dual(mesh(), CGAL::parameters::edge_is_constrained_map(walls_));
     const RW::Dual_mesh_of shape(dual.with_shape_normals(RW::smoothed_shape(dual).shape_normals()), dual);
     const RW::Dihedral_difference difference(shape, convex_weight, RW::Dihedral_measure::angle);
     Walk walk(dual, RW::Conductance(shape, difference, sigma));
@@ -155,31 +188,30 @@ class Session {
   Levels levels(const segment_mesh::Method& method, const Progress_callback& callback) const {
     namespace RW = RW_segmentation;
     const auto policies = segment_mesh::policies_of(method).with_solver(RW::Star_mesh_elimination());
-    return levels_of(RW::hierarchy_via_random_walks(mesh(), policies, CGAL::parameters::callback(callback)),
+    return levels_of(RW::hierarchy_via_random_walks(
+                         mesh(), policies, CGAL::parameters::callback(callback).edge_is_constrained_map(walls_)),
                      policies.stop);
   }
 
   /// Segments that are surfaces.
   Levels surface_levels(const Progress_callback& callback) const {
     const RW_segmentation::Surface_segmentation numbers;
-    return levels_of(RW_segmentation::hierarchy_of_surfaces(mesh(), numbers, CGAL::parameters::callback(callback)),
+    return levels_of(RW_segmentation::hierarchy_of_surfaces(
+                         mesh(), numbers, CGAL::parameters::callback(callback).edge_is_constrained_map(walls_)),
                      [&](const RW_segmentation::Merge_tree& tree) { return numbers.stop(tree); });
   }
 
   /// The smooth boundaries between segments.
   Polylines smooth_boundaries(std::vector<Label> labels) const {
     if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
-    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(mesh(), labels));
+    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(mesh(), labels),
+                                                           CGAL::parameters::edge_is_constrained_map(walls_));
     Polylines lines;
-    const auto add = [&](const Point& p) {
-      for (int i = 0; i < 3; ++i) lines.points.push_back(static_cast<float>(p[i]));
-    };
     for (const auto& curve : curves) {
-      lines.starts.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
-      for (const auto& curve_point : curve.points) add(curve_point.point);
-      if (curve.is_closed) add(curve.points.front().point);
+      for (const auto& curve_point : curve.points) lines.add(curve_point.point);
+      if (curve.is_closed) lines.add(curve.points.front().point);
+      lines.end_curve();
     }
-    lines.starts.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
     return lines;
   }
 
@@ -242,7 +274,9 @@ class Session {
     return Mesh::Face_index(static_cast<Mesh::size_type>(face));
   }
 
+  std::vector<Point> points_of_file_;  // by which users name edges; repairs may number others
   segment_mesh::Oriented_mesh input_;
+  segment_mesh::Wall_map walls_ = input_.mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
   std::optional<Walk> walk_;
 };
 

@@ -16,6 +16,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,13 @@ val done(const Call& call) {
   });
 }
 
+val object_of(const browser_engine::Polylines& lines) {
+  val result = val::object();
+  result.set("points", array_of(lines.points));
+  result.set("starts", array_of(lines.starts));
+  return result;
+}
+
 /// The usual numbers, with the choices of the page.
 segment_mesh::Method method_of(const val& way) {
   using namespace segment_mesh;
@@ -59,6 +67,8 @@ segment_mesh::Method method_of(const val& way) {
   method.difference = choice_of(difference_names, name("difference"));
   method.seeding = choice_of(seeding_names, name("seeding"));
   method.merge_cost = choice_of(merge_cost_names, name("mergeCost"));
+  method.radius = RW_segmentation::Ball_radius::in_edge_lengths(way["radius"].as<double>());
+  if (name("seedings") == "several") method.seedings = seedings_of_thorough_segmentation;
   method.angles = angles_of(method.difference);
   take_numbers(RW_segmentation::Automatic_segmentation(), method);
   return method;
@@ -84,6 +94,17 @@ class Engine {
     });
   }
 
+  /// \param walls `Walls` of the page
+  val set_walls(val walls) {
+    return answer([&] {
+      const val file = walls["file"], angle = walls["angle"];
+      std::vector<segment_mesh::Constraint> constraints;
+      if (!file.isNull())
+        constraints = segment_mesh::constraints_in(file["name"].as<std::string>(), file["text"].as<std::string>());
+      return object_of(
+          session_.set_walls(constraints, angle.isNull() ? std::nullopt : std::optional(angle.as<double>())));
+    });
+  }
   val prepare(double convex_weight, double sigma) {
     return done([&] { session_.prepare(convex_weight, sigma); });
   }
@@ -126,14 +147,8 @@ class Engine {
   }
 
   val smooth_boundaries(val labels) {
-    return answer([&] {
-      const browser_engine::Polylines lines =
-          session_.smooth_boundaries(emscripten::convertJSArrayToNumberVector<Label>(labels));
-      val result = val::object();
-      result.set("points", array_of(lines.points));
-      result.set("starts", array_of(lines.starts));
-      return result;
-    });
+    return answer(
+        [&] { return object_of(session_.smooth_boundaries(emscripten::convertJSArrayToNumberVector<Label>(labels))); });
   }
 
   /// \param colors four numbers for each label: itself, red, green and blue
@@ -180,6 +195,7 @@ EMSCRIPTEN_BINDINGS(engine) {
   emscripten::class_<Engine>("Engine")
       .smart_ptr<std::shared_ptr<Engine>>("Engine")
       .function("mesh", &Engine::mesh)
+      .function("setWalls", &Engine::set_walls)
       .function("prepare", &Engine::prepare)
       .function("addSeed", &Engine::add_seed)
       .function("removeSeed", &Engine::remove_seed)

@@ -13,7 +13,8 @@ export async function showEmbeddedResult(session: Session): Promise<boolean> {
   try {
     const result = readEmbeddedResult(text);
     if (!result) return false;
-    const opened = await session.open(result.name, () => ({ fileName: 'embedded.ply', bytes: result.mesh }));
+    const walls = result.walls ? { name: `Walls of ${result.name}`, text: result.walls } : null;
+    const opened = await session.open(result.name, () => ({ fileName: 'embedded.ply', bytes: result.mesh }), walls);
     if (opened) show(session, result);
   } catch (error) {
     session.report(error, 'The result in this page is damaged. ');
@@ -31,7 +32,8 @@ function show(session: Session, result: EmbeddedResult): void {
     session.givenLabels.value = result.segmentOfFace;
     const method = { kind: result.mode, ...defaultPolicies, ...result.policies };
     session.automatic.kind.value = result.mode;
-    if (result.hierarchy) session.automatic.take(method, { hierarchy: result.hierarchy, parts: result.segments });
+    if (result.hierarchy)
+      session.automatic.take(method, session.walls.peek(), { hierarchy: result.hierarchy, parts: result.segments });
     session.mode.value = 'automatic';
   }
 }

@@ -10,7 +10,9 @@ export interface EmbeddedResult {
   segments: number;
   mode: 'seeds' | HierarchyKind;
   /** What a natural shape was segmented by. */
-  policies?: Policies | null;
+  policies?: Partial<Policies> | null;
+  /** Two vertices a line. */
+  walls?: string | null;
   seeds: { face: number; label: number }[];
 }
 

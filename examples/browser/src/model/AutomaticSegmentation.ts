@@ -1,7 +1,7 @@
-import { batch, computed, signal } from '@preact/signals-core';
+import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { defaultPolicies } from '../worker/calls';
 import { Cancelled, type EngineClient } from '../worker/EngineClient';
-import type { AutomaticMethod, Hierarchy, HierarchyKind, Policies } from '../worker/EngineModule';
+import type { AutomaticMethod, Hierarchy, HierarchyKind, Policies, Walls } from '../worker/EngineModule';
 import { segmentsAtLevel } from './mergeTree';
 
 /** A hierarchy, and the number of parts that is looked at. */
@@ -12,12 +12,14 @@ interface Level {
   milliseconds?: number;
 }
 
-/** The same for methods that give the same hierarchy. */
-function nameOf({ kind, difference, seeding, mergeCost }: AutomaticMethod): string {
-  return kind === 'engineering' ? kind : [kind, difference, seeding, mergeCost].join(' ');
+/** The same for methods and walls that give the same hierarchy. */
+function nameOf({ kind, difference, radius, seeding, seedings, mergeCost }: AutomaticMethod, walls: Walls): string {
+  const ofCurvatures = difference === 'curvature' ? radius : null;
+  const policies = kind === 'engineering' ? null : [difference, ofCurvatures, seeding, seedings, mergeCost];
+  return JSON.stringify([kind, policies, walls]);
 }
 
-/** Segments without seeds. The walk makes a hierarchy once for each method; all numbers of parts are read off it. */
+/** Segments without seeds. The walk makes a hierarchy once for each method and walls; all numbers of parts are read off it. */
 export class AutomaticSegmentation {
   readonly kind = signal<HierarchyKind>('graphical');
   readonly policies = signal<Policies>(defaultPolicies);
@@ -26,7 +28,7 @@ export class AutomaticSegmentation {
   readonly progress = signal<number | null>(null);
   private readonly levels = signal<Partial<Record<string, Level>>>({});
 
-  readonly level = computed(() => this.levels.value[nameOf(this.method.value)] ?? null);
+  readonly level = computed(() => this.levels.value[nameOf(this.method.value, this.walls.value)] ?? null);
   readonly segmentOfFace = computed(() =>
     this.level.value ? segmentsAtLevel(this.level.value.hierarchy, this.level.value.parts) : null,
   );
@@ -35,6 +37,7 @@ export class AutomaticSegmentation {
 
   constructor(
     private readonly engine: EngineClient,
+    private readonly walls: ReadonlySignal<Walls>,
     private readonly report: (error: unknown) => void,
   ) {}
 
@@ -45,11 +48,11 @@ export class AutomaticSegmentation {
   }
 
   /** Takes a hierarchy from elsewhere. */
-  take({ kind, ...policies }: AutomaticMethod, level: Level): void {
+  take({ kind, ...policies }: AutomaticMethod, walls: Walls, level: Level): void {
     batch(() => {
       this.kind.value = kind;
       this.policies.value = policies;
-      this.levels.value = { ...this.levels.peek(), [nameOf({ kind, ...policies })]: level };
+      this.levels.value = { ...this.levels.peek(), [nameOf({ kind, ...policies }, walls)]: level };
     });
   }
 
@@ -60,12 +63,13 @@ export class AutomaticSegmentation {
   async compute(): Promise<void> {
     if (this.progress.peek() !== null) return;
     const method = this.method.peek();
+    const walls = this.walls.peek();
     const mesh = this.meshes;
     this.progress.value = 0;
     try {
-      const hierarchy = await this.engine.hierarchy(method, (fraction) => (this.progress.value = fraction));
+      const hierarchy = await this.engine.hierarchy(method, walls, (fraction) => (this.progress.value = fraction));
       if (mesh === this.meshes) {
-        this.take(method, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
+        this.take(method, walls, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
       }
     } catch (error) {
       if (!(error instanceof Cancelled)) this.report(error);
@@ -80,6 +84,6 @@ export class AutomaticSegmentation {
 
   setParts(parts: number): void {
     const level = this.level.peek();
-    if (level) this.take(this.method.peek(), { ...level, parts });
+    if (level) this.take(this.method.peek(), this.walls.peek(), { ...level, parts });
   }
 }

@@ -2,7 +2,7 @@ import { batch, computed, effect, signal } from '@preact/signals-core';
 import { unpacked } from '../files/unpacked';
 import { defaultParameters, type LoadedMesh, type MeshSource, type WalkParameters } from '../worker/calls';
 import { Cancelled, EngineClient } from '../worker/EngineClient';
-import type { Curves } from '../worker/EngineModule';
+import type { Curves, Walls } from '../worker/EngineModule';
 import { Appearance } from './Appearance';
 import { AutomaticSegmentation } from './AutomaticSegmentation';
 import { colorOf, type Color } from './colorVision';
@@ -34,7 +34,9 @@ export class Session {
   /** Does what takes longer, so that edits need not wait for it. */
   readonly background = new EngineClient();
   readonly seeds = new SeedSegmentation(this.engine, (error) => this.report(error));
-  readonly automatic = new AutomaticSegmentation(this.background, (error) => this.report(error));
+  readonly parameters = signal<WalkParameters>(defaultParameters);
+  readonly walls = computed(() => this.parameters.value.walls);
+  readonly automatic = new AutomaticSegmentation(this.background, this.walls, (error) => this.report(error));
   readonly appearance = new Appearance();
 
   readonly mesh = signal<LoadedMesh | null>(null);
@@ -42,12 +44,13 @@ export class Session {
   /** What is being opened. */
   readonly opening = signal<string | null>(null);
   readonly message = signal<Message | null>(null);
-  readonly parameters = signal<WalkParameters>(defaultParameters);
   readonly mode = signal<Mode>('seeds');
   readonly tool = signal<Tool>('seed');
   /** Labels that came with an embedded result, until another segmentation takes their place. */
   readonly givenLabels = signal<Uint32Array | null>(null);
   readonly curves = signal<Curves | null>(null);
+  /** The edges that are walls, a curve each. */
+  readonly wallEdges = signal<Curves | null>(null);
 
   /** Whether boundaries can be smoothed: they run across triangles. */
   readonly canSmooth = computed(() => {
@@ -74,10 +77,13 @@ export class Session {
 
   /** The colour, as an index into the palette, that faces had in the last automatic segmentation. */
   private paletteOfFace: Uint8Array | null = null;
+  /** What the engine has made the walk for. */
+  private preparedParameters = defaultParameters;
 
   constructor() {
     effect(() => {
       this.curves.value = null;
+      this.walls.value;
       const isWanted = this.appearance.boundaries.value && this.canSmooth.value;
       if (isWanted && this.segmentOfFace.value) void this.findCurves();
     });
@@ -88,18 +94,30 @@ export class Session {
     });
   }
 
-  /** Opens another mesh. The one before stays if that fails. */
-  async open(name: string, source: () => Promise<MeshSource> | MeshSource): Promise<boolean> {
+  /**
+   * Opens another mesh. The one before stays if that fails.
+   *
+   * @param walls the edges of that mesh that are walls; those of the one before mean nothing there
+   */
+  async open(
+    name: string,
+    source: () => Promise<MeshSource> | MeshSource,
+    walls: Walls['file'] = null,
+  ): Promise<boolean> {
     if (this.opening.peek() !== null) return false;
     this.opening.value = name;
     try {
       const content = await source();
-      const mesh = await this.engine.load(content, this.parameters.peek());
+      const parameters = this.parameters.peek();
+      const nextParameters = { ...parameters, walls: { ...parameters.walls, file: walls } };
+      const mesh = await this.engine.load(content, nextParameters);
       this.background.follow(content);
       batch(() => {
         this.paletteOfFace = null;
         this.givenLabels.value = null;
         this.curves.value = null;
+        this.parameters.value = this.preparedParameters = nextParameters;
+        this.wallEdges.value = mesh.walls;
         this.appearance.reset();
         this.automatic.reset();
         this.seeds.reset();
@@ -130,7 +148,11 @@ export class Session {
   }
 
   resetParameters(): void {
-    this.setParameters(defaultParameters);
+    this.setParameters({ ...defaultParameters, walls: this.walls.peek() });
+  }
+
+  setWalls(walls: Partial<Walls>): void {
+    this.setParameters({ walls: { ...this.walls.peek(), ...walls } });
   }
 
   /** Tells the user of an error. */
@@ -140,10 +162,13 @@ export class Session {
   }
 
   private readonly prepare = latest(async () => {
+    const parameters = this.parameters.peek();
     try {
-      await this.engine.prepare(this.parameters.peek());
+      this.wallEdges.value = await this.engine.prepare(parameters);
+      this.preparedParameters = parameters;
       await this.seeds.recompute();
     } catch (error) {
+      if (parameters === this.parameters.peek()) this.parameters.value = this.preparedParameters;
       this.report(error);
     }
   });
@@ -152,7 +177,7 @@ export class Session {
     const segmentOfFace = this.segmentOfFace.peek();
     if (!segmentOfFace || !this.appearance.boundaries.peek()) return;
     try {
-      const curves = await this.background.smoothBoundaries(segmentOfFace);
+      const curves = await this.background.smoothBoundaries(segmentOfFace, this.walls.peek());
       if (segmentOfFace === this.segmentOfFace.peek()) this.curves.value = curves;
     } catch (error) {
       this.report(error);

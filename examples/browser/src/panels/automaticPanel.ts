@@ -54,17 +54,27 @@ export function automaticPanel({ automatic, mesh }: Session): void {
   });
 }
 
-/** A list for each policy, whose options have the names that the engine knows. */
+/** A list for each policy, whose options have the names that the engine knows, and their numbers. */
 function policies(automatic: AutomaticSegmentation): void {
   const lists: [keyof Policies, HTMLSelectElement][] = [
     ['difference', byId<HTMLSelectElement>('difference')],
     ['seeding', byId<HTMLSelectElement>('seeding')],
+    ['seedings', byId<HTMLSelectElement>('seedings')],
     ['mergeCost', byId<HTMLSelectElement>('merge-cost')],
   ];
   for (const [policy, list] of lists)
     list.addEventListener('change', () => automatic.setPolicies({ [policy]: list.value } as Partial<Policies>));
   effect(() => {
-    for (const [policy, list] of lists) list.value = automatic.policies.value[policy];
+    for (const [policy, list] of lists) list.value = String(automatic.policies.value[policy]);
+  });
+
+  const radius = byId<HTMLInputElement>('radius');
+  onSlide('radius', (lengths) => automatic.setPolicies({ radius: lengths }));
+  effect(() => {
+    const { difference, radius: lengths } = automatic.policies.value;
+    byId('radius-row').hidden = difference !== 'curvature';
+    radius.value = String(lengths);
+    byId('radius-value').textContent = radius.ariaValueText = `${lengths} edges`;
   });
 }
 

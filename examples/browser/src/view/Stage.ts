@@ -4,26 +4,29 @@ import { colorOf } from '../model/colorVision';
 import { heat } from '../model/heatMap';
 import type { Session, ShownSegment } from '../model/Session';
 import type { LoadedMesh } from '../worker/calls';
-import { BoundaryCurves } from './BoundaryCurves';
 import { SeedMarkers, type Marker } from './SeedMarkers';
 import { packed, SegmentedMesh, type Placement } from './SegmentedMesh';
+import { SurfaceCurves } from './SurfaceCurves';
 import { Viewer } from './Viewer';
 
 const unsegmented = packed([196, 202, 210]);
+const boundaryColor = 0x14181f;
+const wallColor = 0xd0021b;
 
 /** Shows the mesh of a session as the session says, and follows its changes. */
 export class Stage {
   readonly viewer: Viewer;
   shown: SegmentedMesh | null = null;
   private readonly markers = new SeedMarkers();
-  private readonly curves = new BoundaryCurves();
+  private readonly curves = new SurfaceCurves(boundaryColor);
+  private readonly walls = new SurfaceCurves(wallColor);
 
   constructor(
     private readonly session: Session,
     canvas: HTMLCanvasElement,
   ) {
     this.viewer = new Viewer(canvas);
-    this.viewer.content.add(this.markers.object, this.curves.object);
+    this.viewer.content.add(this.markers.object, this.walls.object, this.curves.object);
     effect(() => this.exchangeMesh());
     effect(() => this.paint());
     effect(() => this.place());
@@ -133,6 +136,7 @@ export class Stage {
     const { hidden, explosion } = this.session.appearance;
     const isWhole = hidden.value.size === 0 && explosion.value === 0;
     this.curves.show(isWhole ? this.session.curves.value : null);
+    this.walls.show(isWhole ? this.session.wallEdges.value : null);
     this.viewer.draw();
   }
 }

@@ -1,6 +1,6 @@
 import EngineWorker from './worker?worker&inline';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { AutomaticMethod, Curves } from './EngineModule';
+import type { AutomaticMethod, Curves, Walls } from './EngineModule';
 
 /** A computation that the user has ended. */
 export class Cancelled extends Error {
@@ -19,7 +19,7 @@ interface Pending {
  * The engine in a worker, as the page sees it: each call gives a promise.
  *
  * The engine computes without looking up, so that a computation is cancelled by ending its worker. A new one then gets
- * the mesh and the parameters again before the next call; the seeds come with each call.
+ * the mesh and the parameters again before the next call; seeds, and walls where no walk is prepared, come with each call.
  */
 export class EngineClient {
   /** How often each call was made. */
@@ -51,9 +51,10 @@ export class EngineClient {
     this.isLoaded = false;
   }
 
-  async prepare(parameters: WalkParameters): Promise<void> {
-    await this.callOnMesh('prepare', [parameters]);
+  async prepare(parameters: WalkParameters): Promise<Curves> {
+    const walls = await this.callOnMesh('prepare', [parameters]);
     this.parameters = parameters;
+    return walls;
   }
 
   segment(...values: Parameters<Calls['segment']>): Promise<Uint32Array | null> {
@@ -64,12 +65,12 @@ export class EngineClient {
     return this.callOnMesh('probabilities', values);
   }
 
-  hierarchy(method: AutomaticMethod, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
-    return this.callOnMesh('hierarchy', [method], onProgress);
+  hierarchy(method: AutomaticMethod, walls: Walls, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
+    return this.callOnMesh('hierarchy', [method, walls], onProgress);
   }
 
-  smoothBoundaries(labels: Uint32Array): Promise<Curves> {
-    return this.callOnMesh('smoothBoundaries', [labels]);
+  smoothBoundaries(...values: Parameters<Calls['smoothBoundaries']>): Promise<Curves> {
+    return this.callOnMesh('smoothBoundaries', values);
   }
 
   file(...values: Parameters<Calls['file']>): Promise<Uint8Array> {

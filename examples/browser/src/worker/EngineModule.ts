@@ -10,6 +10,8 @@ export interface EngineModule {
 /** A mesh, the walk on its faces and the seeds. */
 export interface Engine {
   mesh(): MeshData | Failure;
+  /** The walls in place of those before, which stay if that fails. The walk heeds them once it is prepared. */
+  setWalls(walls: Walls): Curves | Failure;
   /** Computes everything that does not depend on seeds, which are kept. */
   prepare(convexWeight: number, sigma: number): void | Failure;
   addSeed(face: number, label: number): void | Failure;
@@ -66,10 +68,22 @@ export interface MeshData {
 
 export type HierarchyKind = 'graphical' | 'engineering';
 
+/** Edges that nothing crosses: neither walks nor merges nor surfaces. */
+export interface Walls {
+  /** Edges are walls over which the surface turns by more than this, in degrees; null for none. */
+  angle: number | null;
+  /** Two vertices a line, by their numbers in the file of the mesh. */
+  file: { name: string; text: string } | null;
+}
+
 /** How natural shapes are segmented, by the names of the options of the tool segment_mesh. */
 export interface Policies {
   difference: 'concavity' | 'dihedral' | 'curvature';
+  /** Of the balls in which curvatures are measured, in mean edge lengths. */
+  radius: number;
   seeding: 'farthest' | 'particles' | 'coarse';
+  /** Several are what the option `--thorough` places. */
+  seedings: 'once' | 'several';
   mergeCost: 'learned' | 'size' | 'boundary';
 }
 

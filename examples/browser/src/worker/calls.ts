@@ -1,5 +1,5 @@
 import type { Seeds } from '../model/seeds';
-import type { AutomaticMethod, Curves, FileFormat, Hierarchy, MeshData, Policies } from './EngineModule';
+import type { AutomaticMethod, Curves, FileFormat, Hierarchy, MeshData, Policies, Walls } from './EngineModule';
 
 /** Where a mesh comes from. */
 export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: string };
@@ -8,17 +8,32 @@ export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: stri
 export interface WalkParameters {
   convexWeight: number;
   sigma: number;
+  walls: Walls;
 }
 
+export const noWalls: Walls = { angle: null, file: null };
+
 /** Those of the tool segment_mesh, which agree best with people. */
-export const defaultParameters: WalkParameters = { convexWeight: 0.02, sigma: 1 };
+export const defaultParameters: WalkParameters = {
+  convexWeight: 0.02,
+  sigma: 1,
+  walls: noWalls,
+};
 
 /** Likewise, without seeds. */
-export const defaultPolicies: Policies = { difference: 'concavity', seeding: 'farthest', mergeCost: 'learned' };
+export const defaultPolicies: Policies = {
+  difference: 'concavity',
+  radius: 3,
+  seeding: 'farthest',
+  seedings: 'once',
+  mergeCost: 'learned',
+};
 
 export interface LoadedMesh extends MeshData {
   /** Pairs of faces that share an edge. */
   adjacentFaces: Uint32Array;
+  /** A curve each. */
+  walls: Curves;
 }
 
 export interface TimedHierarchy extends Hierarchy {
@@ -32,13 +47,14 @@ export interface Calls {
   load(source: MeshSource, parameters: WalkParameters): LoadedMesh;
   /** Reads a mesh that another worker has read, and prepares the walk if there are parameters for it. */
   follow(source: MeshSource, parameters: WalkParameters | null): void;
-  prepare(parameters: WalkParameters): void;
+  /** Gives the walls, a curve each. Walls that cannot be leave all as it was. */
+  prepare(parameters: WalkParameters): Curves;
   /** The label of each face; null without seeds. */
   segment(seeds: Seeds): Uint32Array | null;
   /** The probability of a label for each face. */
   probabilities(seeds: Seeds, label: number): Float32Array;
-  hierarchy(method: AutomaticMethod): TimedHierarchy;
-  smoothBoundaries(labels: Uint32Array): Curves;
+  hierarchy(method: AutomaticMethod, walls: Walls): TimedHierarchy;
+  smoothBoundaries(labels: Uint32Array, walls: Walls): Curves;
   file(format: FileFormat, name: string, materials: string, labels: Uint32Array, colors: Uint32Array): Uint8Array;
 }
 

@@ -2,7 +2,7 @@ import createEngine from 'engine';
 import { seedEdit, type Seeds } from '../model/seeds';
 import { adjacentFaces } from './adjacentFaces';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { AutomaticMethod, Engine, Failure } from './EngineModule';
+import type { AutomaticMethod, Curves, Engine, Failure, Walls } from './EngineModule';
 
 const moduleIsReady = createEngine();
 let engine: Engine | undefined;
@@ -37,18 +37,30 @@ async function take<T>(source: MeshSource, use: (next: Engine) => T): Promise<T>
   }
 }
 
-function load(source: MeshSource, { convexWeight, sigma }: WalkParameters): Promise<LoadedMesh> {
+function prepare(engine: Engine, { convexWeight, sigma, walls }: WalkParameters): Curves {
+  const lines = value(engine.setWalls(walls));
+  value(engine.prepare(convexWeight, sigma));
+  return lines;
+}
+
+function load(source: MeshSource, parameters: WalkParameters): Promise<LoadedMesh> {
   return take(source, (next) => {
-    value(next.prepare(convexWeight, sigma));
+    const walls = prepare(next, parameters);
     const mesh = value(next.mesh());
-    return { ...mesh, adjacentFaces: adjacentFaces(mesh.triangles, mesh.faceOfTriangle) };
+    return { ...mesh, walls, adjacentFaces: adjacentFaces(mesh.triangles, mesh.faceOfTriangle) };
   });
 }
 
 function follow(source: MeshSource, parameters: WalkParameters | null): Promise<void> {
   return take(source, (next) => {
-    if (parameters) value(next.prepare(parameters.convexWeight, parameters.sigma));
+    if (parameters) prepare(next, parameters);
   });
+}
+
+/** The engine with walls, on which no walk is prepared. */
+function walled(walls: Walls): Engine {
+  value(loaded().setWalls(walls));
+  return loaded();
 }
 
 function setSeeds(seeds: Seeds): void {
@@ -63,11 +75,11 @@ function setSeeds(seeds: Seeds): void {
   }
 }
 
-function hierarchy(method: AutomaticMethod, tell: (progress: number) => void): TimedHierarchy {
+function hierarchy(method: AutomaticMethod, walls: Walls, tell: (progress: number) => void): TimedHierarchy {
   let told = 0;
   const start = performance.now();
   const hierarchy = value(
-    loaded().hierarchy(method, (progress) => {
+    walled(walls).hierarchy(method, (progress) => {
       if (progress >= told + 0.01) tell((told = progress));
       return true;
     }),
@@ -81,7 +93,7 @@ function calls(tell: (progress: number) => void) {
     models: async () => (await moduleIsReady).models(),
     load,
     follow,
-    prepare: ({ convexWeight, sigma }) => value(loaded().prepare(convexWeight, sigma)),
+    prepare: (parameters) => prepare(loaded(), parameters),
     segment(seeds) {
       setSeeds(seeds);
       return seeds.size === 0 ? null : value(loaded().segment());
@@ -90,8 +102,8 @@ function calls(tell: (progress: number) => void) {
       setSeeds(seeds);
       return value(loaded().probabilities(label));
     },
-    hierarchy: (method) => hierarchy(method, tell),
-    smoothBoundaries: (labels) => value(loaded().smoothBoundaries(labels)),
+    hierarchy: (method, walls) => hierarchy(method, walls, tell),
+    smoothBoundaries: (labels, walls) => value(walled(walls).smoothBoundaries(labels)),
     file: (...values) => value(loaded().file(...values)),
   } satisfies { [Name in keyof Calls]: (...values: Parameters<Calls[Name]>) => unknown };
 }

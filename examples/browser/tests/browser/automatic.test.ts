@@ -1,5 +1,7 @@
 import { bumpySphere, cube, offFile } from '../meshes';
+import { segmentsAtLevel } from '../../src/model/mergeTree';
 import { defaultPolicies } from '../../src/worker/calls';
+import type { AutomaticMethod } from '../../src/worker/EngineModule';
 import { answer, engineWith, expect, test, type SegmentationTester } from './fixture';
 
 /** Lets the page find the parts of a bumpy sphere, and the engine by itself. */
@@ -81,6 +83,7 @@ test('each choice of policies has a hierarchy of its own, which is kept', async 
   let policies = { ...defaultPolicies };
   for (const [label, choice] of [
     ['Faces differ by', { difference: 'curvature' }],
+    ['Seeds are placed', { seedings: 'several' }],
     ['Seeds lie', { seeding: 'coarse' }],
     ['Merged first are', { mergeCost: 'boundary' }],
   ] as const) {
@@ -93,9 +96,49 @@ test('each choice of policies has a hierarchy of its own, which is kept', async 
   }
   await page.getByLabel('Merged first are').selectOption(defaultPolicies.mergeCost);
   await expect(page.locator('#parts')).toBeVisible();
-  expect((await segmentation.engineCalls()).hierarchy).toBe(3);
+  expect((await segmentation.engineCalls()).hierarchy).toBe(4);
   await page.getByText('Machine part').click();
   await expect(page.getByText('How parts are found')).toBeHidden();
+});
+
+test('curvatures have a radius, which changes the parts', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(24);
+  await segmentation.openMesh('bumps.off', mesh);
+  await page.click('#tab-automatic');
+  await page.getByText('How parts are found').click();
+  await expect(page.locator('#radius')).toBeHidden();
+  await page.getByLabel('Faces differ by').selectOption('curvature');
+  const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+  const answers: (number[] | null)[] = [];
+  for (const radius of [3, 6]) {
+    await page.locator('#radius').fill(String(radius));
+    await expect(page.locator('#radius-value')).toHaveText(`${radius} edges`);
+    await page.click('#compute');
+    await page.locator('#parts').fill('9');
+    const method: AutomaticMethod = { kind: 'graphical', ...defaultPolicies, difference: 'curvature', radius };
+    const hierarchy = answer(engine.hierarchy(method, () => true));
+    answers.push(await segmentation.labels());
+    expect(answers.at(-1)).toEqual([...segmentsAtLevel(hierarchy, 9)]);
+  }
+  expect(answers[0]).not.toEqual(answers[1]);
+  await segmentation.screenshot('radius');
+});
+
+test('seeds placed several times give other parts', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('bumps.off', bumpySphere(24));
+  await page.click('#tab-automatic');
+  await page.getByText('How parts are found').click();
+  const answers: string[] = [];
+  for (const seedings of ['once', 'several']) {
+    await page.getByLabel('Seeds are placed').selectOption(seedings);
+    await page.click('#compute');
+    await expect(page.locator('#parts')).toBeVisible();
+    await page.locator('#parts').fill('9');
+    answers.push(JSON.stringify(await segmentation.labels()));
+  }
+  expect(answers[0]).not.toBe(answers[1]);
 });
 
 test('a computation can be cancelled, and the page goes on as before', async ({ segmentation }) => {

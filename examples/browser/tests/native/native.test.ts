@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { defaultPolicies } from '../../src/worker/calls';
-import type { AutomaticMethod, Engine, MeshData } from '../../src/worker/EngineModule';
+import type { AutomaticMethod, Engine, MeshData, Walls } from '../../src/worker/EngineModule';
 import { labelFormats, meshFormats } from '../../src/files/formats';
 import { answer, engineModule, engineWith, expect, pageFile, test } from '../browser/fixture';
 import { cube, offFile } from '../meshes';
@@ -67,6 +67,8 @@ for (const [model, choices, options] of [
   ['quadruped', { kind: 'graphical' }, []],
   ['hand', { difference: 'dihedral', seeding: 'particles' }, ['--difference', 'dihedral', '--seeding', 'particles']],
   ['hand', { difference: 'curvature' }, ['--difference', 'curvature']],
+  ['hand', { difference: 'curvature', radius: 5 }, ['--difference', 'curvature', '--radius', '5']],
+  ['quadruped', { seedings: 'several' }, ['--thorough']],
   ['hand', { mergeCost: 'size' }, ['--merge-cost', 'size']],
   ['quadruped', { seeding: 'coarse', mergeCost: 'boundary' }, ['--seeding', 'coarse', '--merge-cost', 'boundary']],
   ['turned shaft', { kind: 'engineering' }, ['--engineering']],
@@ -76,6 +78,26 @@ for (const [model, choices, options] of [
     const method: AutomaticMethod = { kind: 'graphical', ...defaultPolicies, ...choices };
     const hierarchy = answer(engine.hierarchy(method, () => true));
     segmentNatively(...options, '--labels', 'labels.seg');
+    expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
+  });
+
+for (const [model, walls, options] of [
+  ['turned shaft', { angle: 40, file: null }, ['--constraints-angle', '40']],
+  ['hand', { angle: 60, file: { name: 'walls.txt', text: '' } }, ['--constraints-angle', '60']],
+  ['hand', { angle: null, file: { name: 'walls.txt', text: '' } }, ['--constraints', 'walls.txt']],
+] as [string, Walls, string[]][])
+  test(`walls of ${model} are those that it has natively: ${options.join(' ')}`, async () => {
+    const { engine } = await engineWithModel(model);
+    const { triangles } = answer(engine.mesh());
+    if (walls.file) walls.file.text = `${triangles[0]} ${triangles[1]}\n${triangles[300]} ${triangles[301]} # another`;
+    writeFileSync(join(folder, 'walls.txt'), walls.file?.text ?? '');
+    const edges = answer(engine.setWalls(walls)).starts.length - 1;
+    if (walls.file && walls.angle !== null) options.push('--constraints', 'walls.txt');
+    segmentNatively(...options, '--labels', 'labels.seg', '--report', 'report.json');
+    const report = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8')) as { walls: number };
+    expect(edges).toBeGreaterThan(0);
+    expect(edges).toBe(report.walls);
+    const hierarchy = answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
     expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
   });
 
@@ -100,6 +122,20 @@ test('every file is byte for byte what the tool writes', async () => {
     const written = Buffer.from(answer(engine.file(format, name, 'out.mtl', labels, colors)));
     expect(written.equals(readFileSync(join(folder, name))), format).toBe(true);
   }
+});
+
+test('a page that the tool writes has its walls and its policies', async ({ segmentation }) => {
+  await engineWithModel('turned shaft');
+  const options = ['--constraints-angle', '40', '--difference', 'curvature', '--radius', '4', '--thorough'];
+  segmentNatively(...options, '--html', 'result.html', '--page', pageFile, '--report', 'report.json');
+  const report = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8')) as { walls: number };
+  const { page } = segmentation;
+  await segmentation.goto(pathToFileURL(join(folder, 'result.html')).href);
+  await expect(page.locator('#wall-file-name')).toHaveText('Walls of mesh.off');
+  await expect(page.locator('#wall-count')).toHaveText(`${report.walls.toLocaleString('en')} edges`);
+  await expect(page.locator('#radius')).toHaveValue('4');
+  await expect(page.locator('#seedings')).toHaveValue('several');
+  await expect(page.locator('#parts')).toBeVisible(); // nothing is to be found anew
 });
 
 test('a page that the tool writes shows what the tool found', async ({ segmentation }) => {

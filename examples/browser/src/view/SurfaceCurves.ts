@@ -3,12 +3,12 @@ import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 import type { Curves } from '../worker/EngineModule';
 
-/** The smooth curves between segments. */
-export class BoundaryCurves {
-  private readonly material = new LineMaterial({ color: 0x14181f, linewidth: 2.2 });
-  readonly object = new LineSegments2(new LineSegmentsGeometry(), this.material);
+/** Curves of one colour on the surface. */
+export class SurfaceCurves {
+  readonly object: LineSegments2;
 
-  constructor() {
+  constructor(color: number) {
+    this.object = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth: 2.2 }));
     this.object.visible = false;
     this.object.frustumCulled = false;
   }
