@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How right the default solver is: against a dense solve with 500 digits, and after random edits of the seeds against a
 // factorisation made afresh.
 

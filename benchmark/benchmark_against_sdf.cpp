@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The automatic segmentation beside CGAL's segmentation by shape diameters, on the same meshes in the same run: time by
 // stage, memory, and how both grow. One thread each.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How smooth, how true and how fast the boundaries of segments become.
 
 #include "../test/solids.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Boundary representations for CAD systems: how many are valid and closed, how many keep triangles, how close their areas
 // and volumes are to the truth, how large their STEP files are, and the time beside that of the segmentation.
 

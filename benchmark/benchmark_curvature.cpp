@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How right the curvatures from balls are on surfaces in closed form, clean and with noise, beside CGAL's jet fitting to
 // the vertices in the same balls; and what they cost. Jet fitting is GPL.
 

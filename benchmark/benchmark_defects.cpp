@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Whether segment_mesh bears any mesh with any defect in any of its modes, and reads it in any dialect of its formats.
 
 #include "../examples/mesh_files.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Solids whose analytic faces are known: how well they are found, clean and under noise, beside CGAL's segmentation by
 // sharp edges, by growing planes and by shape diameters. Some parts of CGAL used here are under the GPL.
 

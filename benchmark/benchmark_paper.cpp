@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The paper's Tables 1 and 2 (seconds over faces and over seeds) and its test of stability against shifted seeds
 // (Fig. 6), beside the paper's own figures.
 

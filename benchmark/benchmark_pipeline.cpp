@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A pipeline composed by hand of stages that share one Dual_mesh_of, beside the one call: its time, and whether the labels
 // are the same.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How well segmentations agree with people's, on the meshes of the Princeton Segmentation Benchmark, and how long they
 // take. The data are not part of this package; --data names a folder with the benchmark's own layout:
 // data/off/N.off and data/seg/Benchmark/N/N_k.seg.

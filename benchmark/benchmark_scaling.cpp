@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // How the automatic segmentation grows with the mesh: the time of each stage, the memory, and the exponents of both.
 
 #include "measurement.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The time to answer an edit of the seeds, labels written each time, against a full redo and against plain passes over
 // an array of as many potentials.
 

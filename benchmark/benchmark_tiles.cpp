@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A mesh cut into tiles beside the same mesh as a whole: how far the segments agree, whether tiles show in them, and what
 // it costs.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The time and memory that the walk takes, solver by solver: from a mesh and a stored map of conductances to a written
 // map of labels.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Writes what train_merge_cost.py learns the merge cost from: each pair of neighbouring regions that merging by
 // Size_aware_cost looks at on meshes of the Princeton Segmentation Benchmark, and how far people leave the two in one
 // segment. The data are not part of this package, see princeton_data.h.

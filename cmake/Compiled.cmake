@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # The target RW_segmentation::compiled: what the library does that depends on no type of the user's, in one place instead
 # of in each program. Static or shared, by BUILD_SHARED_LIBS. Its parallel parts use TBB where that is found.
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)

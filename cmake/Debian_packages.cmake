@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # Debian packages by cpack, one for each component that has something to install.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The RW_segmentation authors")

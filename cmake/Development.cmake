@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # The target RW_segmentation_development: the library as our own tests, examples and benchmarks compile it, with
 # warnings as errors, the optional libraries that are found, and CGAL's data meshes.
 

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # Install rules, a package configuration for find_package(RW_segmentation) that serves the install tree and the build
 # tree alike, and a file for pkg-config. The component `dev` is the library; the tool segment_mesh is the component `tool`,
 # see examples/CMakeLists.txt.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // What most examples and benchmark programs include and what takes long to parse. A program includes what it uses all the
 // same.
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>

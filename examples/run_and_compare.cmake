@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # cmake -DCOMMAND="program;argument;..." -DINPUT=file -DPRINTS="regex;..." -DWRITES="file;..." -P run_and_compare.cmake
 # Fails unless the command returns 0, its standard output matches every expression and it writes the files.
 

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # CTest runs each example on a mesh of CGAL's data folder and looks at what it prints and writes.
 
 # example_test(<name> <program> [ARGUMENTS ...] [INPUT <lines>...] [PRINTS <regular expression>...] [WRITES <file>...])

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # tests_collection.sh PROGRAM SEGMENT_MESH DATA_MESHES FOLDER COMMAND ...
 # Runs a recipe for a collection, of which PROGRAM is needed, on ten meshes, one of which is broken: the others must be
 # segmented all the same. Then the mesh is mended, and the recipe must do it alone. The recipe works in FOLDER, where it

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # tests_tiles.sh PROGRAM SEGMENT_MESH DATA_MESHES FOLDER COMMAND ...
 # Runs a recipe for tiles, of which PROGRAM is needed, on a mesh in one tile and a second tile that touches it nowhere,
 # and compares the labels with those of the tool by itself. Then one of the files in between is lost: the recipe must do what

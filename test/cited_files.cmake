@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # Each source file that the manual or the README names in `backticks` is one of the repository.
 
 file(GLOB_RECURSE sources ${ROOT}/include/* ${ROOT}/src/* ${ROOT}/test/* ${ROOT}/benchmark/* ${ROOT}/examples/*.h

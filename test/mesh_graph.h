@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_TEST_MESH_GRAPH_H
 #define RW_SEGMENTATION_TEST_MESH_GRAPH_H
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include "meshes.h"
 
 #include <algorithm>

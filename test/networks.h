@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #ifndef RW_SEGMENTATION_TEST_NETWORKS_H
 #define RW_SEGMENTATION_TEST_NETWORKS_H
 

@@ -1,1 +1,3 @@
+// SPDX-License-Identifier: MIT
+
 // Carries the precompiled header that the tests share.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // What most tests include and what takes long to parse. A test includes what it uses all the same.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Surface_samples.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Analytic_surface_cost.h>
 #include <RW_segmentation/merge_segments.h>
 

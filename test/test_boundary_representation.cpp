@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 

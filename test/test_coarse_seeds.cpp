@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include "meshes.h"
 
 #include <RW_segmentation/Dihedral_difference.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Conductances: the formula, its cap and floors, constraints, and what maps they accept.
 
 #include "mesh_graph.h"

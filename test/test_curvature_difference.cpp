@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The difference of engineering models: Eq. 7 and 8, smooth joints beside creases, and what odd meshes get.
 
 #include "mesh_graph.h"

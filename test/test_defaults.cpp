@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The defaults that the manual's page of parameters tells are those of the headers.
 
 #include <RW_segmentation/Conductance.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The dihedral difference: closed forms, invariances, and what odd meshes get.
 
 #include "mesh_graph.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Triangles cut along chords, against all ways to cut them.
 
 #include <RW_segmentation/internal/boundary/Divided_triangle.h>

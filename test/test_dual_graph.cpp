@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The dual graph as a graph: of pairs of faces, of a mesh, and as Boost.Graph sees it.
 
 #include <RW_segmentation/Dual_graph.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The plan of an elimination against the elimination itself, carried out on sets of neighbours.
 
 #include <RW_segmentation/internal/solver/Elimination_plan.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // What happens when memory runs out, the user cancels, or a map of the user's throws, at any moment.
 
 #include <RW_segmentation/Conductance.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The dense arithmetic of the elimination against its definition, on each instruction set that this machine has.
 
 #include <RW_segmentation/internal/solver/front_kernels.h>

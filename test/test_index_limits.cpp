@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Meshes with more faces, edges or vertices than 32 bits can number, as they say of themselves.
 
 #include <RW_segmentation/Conductance.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Curvatures from balls: their moments against quadrature, surfaces in closed form, and what odd meshes get.
 
 #include "meshes.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Closest points on a surface and on the surface in the metric of points and normals.
 
 #include <RW_segmentation/internal/boundary/Lifted_surface.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/local_thickness.h>
 
 #include <CGAL/mesh_segmentation.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Merge_tree.h>
 #include <RW_segmentation/Region_boundary.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Bad and odd input of the walk: one test for each kind, named for what it gets.
 
 #include <RW_segmentation/Conductance.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // What a computation tells of how far it has come.
 
 #include <RW_segmentation/Progress.h>

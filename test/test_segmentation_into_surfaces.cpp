@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include "../benchmark/segmentation_measures.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 

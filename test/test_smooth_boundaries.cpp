@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Geodesic_joining.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/smooth_boundaries.h>

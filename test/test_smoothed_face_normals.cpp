@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Smoothed normals against a dense solution of the same system, and on shapes whose normals are known.
 
 #include "meshes.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Geodesic_joining.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>

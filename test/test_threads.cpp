@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Several threads at a time: objects of their own, one object that all of them read, and the library's own threads.
 // Under ThreadSanitizer these tests also tell of data races.
 

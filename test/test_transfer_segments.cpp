@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/mesh/closest_face.h>
 #include <RW_segmentation/internal/walk/spurious_regions.h>

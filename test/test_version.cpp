@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/version.h>
 
 #include <CGAL/version.h>

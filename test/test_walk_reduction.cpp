@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Eigen_walk_solver.h>

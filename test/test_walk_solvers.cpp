@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Eigen_walk_solver.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/solver/Elimination_plan.h>

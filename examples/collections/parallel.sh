@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Segments all meshes of a folder, as many at a time as there are cores. Run again, it does what is left and what failed.
 #
 #   parallel.sh MESH_FOLDER OUTPUT_FOLDER [option of segment_mesh ...]

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 """Segments tiles of one mesh with Dask: each step of each tile is a task, on this machine or on a cluster.
 
     python segment_tiles.py WORK_FOLDER OUTPUT_FOLDER TILE ... [--scheduler ADDRESS] [--workers N] [--options "..."]

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # The target Open_cascade, if Open CASCADE is installed: what boundary_representation.h and the CAD files of segment_mesh
 # need. Its own package configuration asks for its viewers as well, and names no include folder.
 if(TARGET Open_cascade)

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # cmake -DCPACK=... -DCONFIG=... -DDPKG_DEB=... -DINSTALL_TREE=... -P debian_packages.cmake
 # Makes the Debian packages and fails unless they name what they depend on, and hold together what is installed.
 cmake_policy(VERSION 3.21)

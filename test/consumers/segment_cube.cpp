@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // A program of a user of the package: segments a cube from one seed on each of two opposite faces.
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # Compiles a wrong program and looks for its sentences, those of its comments "// error: ...", in what the compiler says.
 
 separate_arguments(options NATIVE_COMMAND "${OPTIONS}")

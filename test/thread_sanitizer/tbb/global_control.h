@@ -1,1 +1,3 @@
+// SPDX-License-Identifier: MIT
+
 #include "../tbb_of_threads.h"
