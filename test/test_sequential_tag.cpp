@@ -13,11 +13,13 @@
 #include <RW_segmentation/integral_invariant_curvatures.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/merge_segments.h>
+#include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/split_along_boundaries.h>
+#include <RW_segmentation/tiled_segmentation.h>
 #include <RW_segmentation/transfer_segments.h>
 
 #include <tbb/task_arena.h>
@@ -32,6 +34,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -101,12 +104,77 @@ TEST(SequentialTag, KeepsEveryFunctionToTheCallingThread) {
   expect_one_thread("thickness_of_all_faces", [&] { thickness_of_all_faces<One>(mesh, numbers, np); });
   expect_one_thread("transfer_segments", [&] { transfer_segments<One>(mesh, ids, mesh, conductance, ids, 2, np, np); });
   expect_one_thread("merge_segments", [&] { merge_segments<One>(mesh, ids, difference, np); });
+  expect_one_thread("segment_surfaces", [&] {
+    segment_surfaces<One>(mesh, ids, merge_segments(mesh, ids, difference).number_of_fragments(), np);
+  });
   expect_one_thread("segmentation_into_surfaces", [&] { segmentation_into_surfaces<One>(mesh, ids, np); });
   expect_one_thread("hierarchy_via_random_walks", [&] { hierarchy_via_random_walks<One>(mesh, np); });
   expect_one_thread("segmentation_via_random_walks", [&] { segmentation_via_random_walks<One>(mesh, ids, np); });
   std::vector<Boundary_curve<Surface_mesh>> curves;
   expect_one_thread("smooth_boundaries", [&] { curves = smooth_boundaries<One>(mesh, ids, np); });
   expect_one_thread("split_along_boundaries", [&] { split_along_boundaries<One>(mesh, curves, ids, np); });
+}
+
+// A walk asks for points when it is made and for its report, and tells its progress while it solves.
+TEST(SequentialTag, KeepsAWalkToTheCallingThreadAsLongAsItLives) {
+  Surface_mesh mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(3, 0.3, 16));
+  int most_threads = 0;
+  const std::function<bool(double)> observe = [&](double) {
+    most_threads = std::max(most_threads, tbb::this_task_arena::max_concurrency());
+    return true;
+  };
+  const auto conductance = as_conductance(boost::make_function_property_map<Surface_mesh::Edge_index>(
+      [&](Surface_mesh::Edge_index) { return observe(0) ? 1. : 0.; }));
+  Random_walk<Surface_mesh, Star_mesh_elimination, CGAL::Sequential_tag> walk(
+      mesh, conductance, Star_mesh_elimination(),
+      CGAL::parameters::vertex_point_map(Observed_points{&mesh, &most_threads}).callback(observe));
+  EXPECT_EQ(most_threads, 1);
+  const auto ids = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("f:id").first;
+  walk.add_seed(Surface_mesh::Face_index(0), 0);
+  walk.add_seed(Surface_mesh::Face_index(100), 1);
+  for (const auto& call : std::vector<std::function<void()>>{[&] { walk.segment(ids); }, [&] { walk.report(); },
+                                                             [&] {
+                                                               walk.add_seed(Surface_mesh::Face_index(50), 2);
+                                                               walk.probability(Surface_mesh::Face_index(7), 2);
+                                                             }}) {
+    most_threads = 0;
+    call();
+    EXPECT_EQ(most_threads, 1);
+  }
+}
+
+// Tiles are plain arrays, which nobody can watch: their steps are observed where they tell their progress.
+TEST(SequentialTag, KeepsStepsOfTilesToTheCallingThread) {
+  using One = CGAL::Sequential_tag;
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(3, 0.3, 16));
+  const std::vector<Tile> tiles = {Tile_of(mesh)};
+  const Tiled_segmentation options;
+  int most_threads = 0;
+  const Progress progress([&](double) {
+    most_threads = std::max(most_threads, tbb::this_task_arena::max_concurrency());
+    return true;
+  });
+  const auto observed = [&](const char* function, auto result) {
+    EXPECT_EQ(most_threads, 1) << function;
+    most_threads = 0;
+    return result;
+  };
+
+  const Tile_plan plan = plan_tiles({survey_tile(tiles[0])});
+  const Tile_in_plan place = {0, plan};
+  Tile_noise noise;
+  const Tile_border border = observed("border_of_tile", border_of_tile<One>(tiles[0], place, noise, options, progress));
+  const Shaped_tile shaped =
+      observed("shape_of_tile", shape_of_tile<One>(tiles[0], place, {}, noise_of_tiles({noise}), options, progress));
+  const Tile_seeds seeds = seeds_of_tiles(plan, {shaped.outline});
+  Tile_network network;
+  const Tile_clusters clusters = clusters_of_tile<One>(shaped.shape, place, border, seeds, network);
+  const std::vector<Tile_network> networks = {network};
+  const Tile_walk walk = observed("walk_over_tiles", walk_over_tiles<One>(plan, seeds, networks, options, progress));
+  Tile_regions regions;
+  observed("fragments_of_tile",
+           fragments_of_tile<One>({place, shaped.shape, clusters, {}, {}, seeds, walk}, regions, progress));
+  observed("hierarchy_of_tiles", hierarchy_of_tiles<One>(tiles, options, progress));
 }
 
 #endif

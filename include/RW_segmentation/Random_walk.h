@@ -50,6 +50,8 @@ namespace RW_segmentation {
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`; it must outlive the walk and keep its faces and edges
 /// \tparam Solver a model of `WalkSolver`: `Star_mesh_elimination` (the default, exact for every range of conductances) or
 /// `Eigen_walk_solver<S>`
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`; holds
+/// for all that the object does
 ///
 /// Cost: the first `segment()` orders and factorises (see the solver) and holds O(m + n) memory besides the factor for
 /// m faces and n seeds. The first answer after an edit keeps a column of 8 bytes a face for each seed face; from then
@@ -57,7 +59,8 @@ namespace RW_segmentation {
 /// a changed label nothing. An edit of more than 8 seed faces at once, or beyond 64 seed faces (strokes), is
 /// solved directly and keeps no columns. Potentials after edits are right to 1e-9; where digits would be lost the walk
 /// factorises anew by itself.
-template <class FaceListGraph, class Solver = Star_mesh_elimination>
+template <class FaceListGraph, class Solver = Star_mesh_elimination,
+          class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 class Random_walk {
   static_assert(internal::is_walk_solver<Solver>,
                 "The third argument of Random_walk is a solver, a model of WalkSolver such as Star_mesh_elimination or "
@@ -86,9 +89,11 @@ class Random_walk {
   template <class Mesh, class ConductanceMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
   Random_walk(const Mesh& mesh, const ConductanceMap& conductance, Solver solver = Solver(),
               const NamedParameters& np = CGAL::parameters::default_values())
-      : mesh_(internal::dual_mesh_without_points(mesh, np)),
-        walk_(mesh_.graph(), internal::read_conductances(mesh_, conductance),
-              internal::Any_walk_solver(std::move(solver)), internal::progress_of(np)),
+      : mesh_(with_threads([&] { return internal::dual_mesh_without_points(mesh, np); })),
+        walk_(with_threads([&] {
+          return internal::Graph_walk(mesh_.graph(), internal::read_conductances(mesh_, conductance),
+                                      internal::Any_walk_solver(std::move(solver)), internal::progress_of(np));
+        })),
         faces_at_start_(num_faces(mesh_.mesh())),
         edges_at_start_(num_edges(mesh_.mesh())),
         count_degenerate_faces_(degenerate_faces_of(mesh, np)) {
@@ -141,14 +146,14 @@ class Random_walk {
   template <class SegmentIdMap>
   std::size_t segment(SegmentIdMap segment_ids) {
     check_faces();
-    return write(walk_.labels(), segment_ids);
+    return write(with_threads([&] { return walk_.labels(); }), segment_ids);
   }
 
   /// As `segment()`, but leaves faces that are cut off from the seeds of their label where the walk puts them.
   template <class SegmentIdMap>
   std::size_t write_raw_labels(SegmentIdMap segment_ids) {
     check_faces();
-    return write(walk_.raw_labels(), segment_ids);
+    return write(with_threads([&] { return walk_.raw_labels(); }), segment_ids);
   }
 
   /// The probability that a walk from the face meets a seed of the label first; 0 for a label without seeds.
@@ -158,7 +163,7 @@ class Random_walk {
   /// other numbers of faces or edges only
   double probability(face_descriptor face, Label label) {
     check_counts();
-    return walk_.potential(index(face, "face"), label);
+    return with_threads([&] { return walk_.potential(index(face, "face"), label); });
   }
 
   /// Writes the probability of a label for all faces.
@@ -169,18 +174,23 @@ class Random_walk {
     static_assert(internal::is_writable_map<ProbabilityMap, face_descriptor>,
                   "probabilities must be a writable property map from the mesh's face_descriptor to double.");
     check_faces();
-    mesh_.write_faces(walk_.potential(label), probabilities);
+    mesh_.write_faces(with_threads([&] { return walk_.potential(label); }), probabilities);
   }
 
   /// What the mesh has and the last answer met that is odd but not wrong. Looks at each face of the mesh.
   /// \throws std::invalid_argument if a coordinate is not finite
   Walk_report report() const {
     Walk_report report = walk_.report();
-    report.degenerate_faces = count_degenerate_faces_();
+    report.degenerate_faces = with_threads([&] { return count_degenerate_faces_(); });
     return report;
   }
 
  private:
+  template <class Work>
+  static auto with_threads(const Work& work) {
+    return internal::with_threads<ConcurrencyTag>(work);
+  }
+
   template <class NamedParameters>
   static std::function<std::size_t()> degenerate_faces_of(const FaceListGraph& mesh, const NamedParameters& np) {
     const auto points =
@@ -290,18 +300,17 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
   std::size_t ids = 0;
   for (auto& entry : id_of_label) entry.second = ids++;
 
-  return internal::with_threads<ConcurrencyTag>([&] {
-    Random_walk<typename internal::Mesh_type<FaceListGraph>::type, Solver> walk(mesh, conductance, Solver(), np);
-    for (std::size_t s = 0; s < labelled.size(); ++s) {
-      const auto& [face, label] = labelled[s];
-      if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
-      if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
-        throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
-                                    " to a face that an earlier seed gives another label");
-      walk.add_seed(face, id_of_label[label]);
-    }
-    return walk.segment(segment_ids);
-  });
+  Random_walk<typename internal::Mesh_type<FaceListGraph>::type, Solver, ConcurrencyTag> walk(mesh, conductance,
+                                                                                              Solver(), np);
+  for (std::size_t s = 0; s < labelled.size(); ++s) {
+    const auto& [face, label] = labelled[s];
+    if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
+    if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
+      throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
+                                  " to a face that an earlier seed gives another label");
+    walk.add_seed(face, id_of_label[label]);
+  }
+  return walk.segment(segment_ids);
 }
 
 }  // namespace RW_segmentation

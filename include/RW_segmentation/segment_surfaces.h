@@ -7,9 +7,11 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/named_parameters.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -35,6 +37,7 @@ std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
 /// spheres pass through them as well as cones, and either may be returned. Complexity: linear in the number of faces, and
 /// constant for each segment.
 ///
+/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one
 /// \tparam SegmentIdMap a readable property map from `face_descriptor` to integers
 /// \tparam NamedParameters a sequence of CGAL's named parameters
@@ -46,7 +49,8 @@ std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
 /// \param np `vertex_point_map` (default: that of the mesh)
 /// \returns the surface of each segment, in the mesh's coordinates; a free form where none fits
 /// \throws std::invalid_argument if an id is out of range, or a coordinate or the noise is not finite
-template <class FaceListGraph, class SegmentIdMap, class NamedParameters = CGAL::parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
                                                std::size_t number_of_segments, double noise = -1,
                                                const NamedParameters& np = CGAL::parameters::default_values()) {
@@ -54,13 +58,24 @@ std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const 
                 "segment_ids must be a readable property map from the mesh's face_descriptor to an integer.");
   static_assert(internal::has_only<NamedParameters, internal::Vertex_point>,
                 "segment_surfaces() takes the named parameter vertex_point_map.");
-  const auto& dual = internal::dual_mesh(mesh, np);
-  const std::vector<std::size_t> segment_of_face = dual.read_segments(segment_ids);
-  for (const std::size_t segment : segment_of_face)
-    if (segment >= number_of_segments)
-      throw internal::argument_error("a segment id", segment,
-                                     ("less than " + std::to_string(number_of_segments)).c_str());
-  return internal::surfaces_of_segments(dual, segment_of_face, number_of_segments, noise);
+  return internal::with_threads<ConcurrencyTag>([&] {
+    const auto& dual = internal::dual_mesh(mesh, np);
+    const std::vector<std::size_t> segment_of_face = dual.read_segments(segment_ids);
+    for (const std::size_t segment : segment_of_face)
+      if (segment >= number_of_segments)
+        throw internal::argument_error("a segment id", segment,
+                                       ("less than " + std::to_string(number_of_segments)).c_str());
+    return internal::surfaces_of_segments(dual, segment_of_face, number_of_segments, noise);
+  });
+}
+
+/// With noise as the mesh has it, and named parameters after the number.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap, class T,
+          class Tag, class Base>
+std::vector<Analytic_surface> segment_surfaces(const FaceListGraph& mesh, const SegmentIdMap& segment_ids,
+                                               std::size_t number_of_segments,
+                                               const CGAL::Named_function_parameters<T, Tag, Base>& np) {
+  return segment_surfaces<ConcurrencyTag>(mesh, segment_ids, number_of_segments, -1, np);
 }
 
 }  // namespace RW_segmentation

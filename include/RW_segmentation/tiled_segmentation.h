@@ -10,8 +10,11 @@
 #include <RW_segmentation/Tile.h>
 #include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/smoothed_face_normals.h>
+
+#include <CGAL/tags.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -38,7 +41,8 @@
 ///     all         `merge_tiles()`       the merge tree
 ///
 /// A step takes what earlier ones returned, in the order of the tiles, and depends on nothing else: not on where or in which
-/// order the tiles are done. Whatever lies between two steps is plain data.
+/// order the tiles are done. Whatever lies between two steps is plain data. Steps that may use threads take CGAL's tag of
+/// concurrency as their template argument.
 ///
 /// It is the segmentation that `segmentation_via_random_walks()` makes of large meshes, on the mesh as a whole: the same
 /// seeds but for their place within a cluster, the same walk, the same merging. What differs: normals near a tile's border
@@ -233,6 +237,20 @@ struct Tile_regions {
   std::vector<internal::Side_value<Boundary_sums>> sides;                ///< those at its border
 };
 
+namespace internal {
+
+// The steps that may use threads, as they are without a tag of concurrency.
+Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
+                           const Tiled_segmentation& options, const Progress& progress);
+Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours,
+                          const Noise_of_mesh& noise, const Tiled_segmentation& options, const Progress& progress);
+Tile_clusters clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place, const Tile_border& border,
+                               const Tile_seeds& seeds, Tile_network& network, const Tiled_segmentation& options);
+Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const std::vector<Tile_network>& networks,
+                          const Tiled_segmentation& options, const Progress& progress);
+
+}  // namespace internal
+
 /// Looks at a tile by itself.
 /// \throws std::invalid_argument if a point is not finite, a corner is no vertex or ids are not one for each vertex
 /// Complexity: linear.
@@ -247,8 +265,12 @@ Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmen
 /// \param[out] noise what `noise_of_tiles()` needs
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
-                           const Tiled_segmentation& options = {}, const Progress& progress = {});
+                           const Tiled_segmentation& options = {}, const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::border_of_tile(tile, place, noise, options, progress); });
+}
 
 /// How noisy the whole is.
 internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles);
@@ -257,9 +279,13 @@ internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles);
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours,
                           const internal::Noise_of_mesh& noise, const Tiled_segmentation& options = {},
-                          const Progress& progress = {});
+                          const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::shape_of_tile(tile, place, neighbours, noise, options, progress); });
+}
 
 /// Places the seeds.
 /// \throws std::invalid_argument, Cancelled
@@ -271,13 +297,21 @@ Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>
 /// \param border of this tile
 /// \param[out] network what the next step needs
 /// Complexity: O(m log m) for m faces.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_clusters clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place, const Tile_border& border,
-                               const Tile_seeds& seeds, Tile_network& network, const Tiled_segmentation& options = {});
+                               const Tile_seeds& seeds, Tile_network& network, const Tiled_segmentation& options = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::clusters_of_tile(shape, place, border, seeds, network, options); });
+}
 
 /// Walks over the clusters of all tiles.
 /// \throws Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const std::vector<Tile_network>& networks,
-                          const Tiled_segmentation& options = {}, const Progress& progress = {});
+                          const Tiled_segmentation& options = {}, const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::walk_over_tiles(plan, seeds, networks, options, progress); });
+}
 
 /// What `fragments_of_tile()` takes of the steps before it.
 struct Walked_tile {
@@ -290,12 +324,22 @@ struct Walked_tile {
   const Tile_walk& walk;                        ///< over all tiles
 };
 
+namespace internal {
+
+std::vector<Dual_mesh::Index> fragments_of_tile(const Walked_tile& tile, Tile_regions& regions,
+                                                const Progress& progress);
+
+}  // namespace internal
+
 /// Walks once more over the faces along the boundaries of fragments, and sums up what merging asks for.
 /// \param[out] regions what the next step needs
 /// \returns the fragment of each face of the tile
 /// \throws Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 std::vector<Dual_mesh::Index> fragments_of_tile(const Walked_tile& tile, Tile_regions& regions,
-                                                const Progress& progress = {});
+                                                const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>([&] { return internal::fragments_of_tile(tile, regions, progress); });
+}
 
 namespace internal {
 
@@ -328,6 +372,13 @@ struct Tiled_hierarchy {
   std::vector<std::vector<std::size_t>> segments(std::size_t number_of_segments) const;
 };
 
+namespace internal {
+
+Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options,
+                                   const Progress& progress);
+
+}  // namespace internal
+
 /// Segments tiles that fit into memory together: all steps, one after the other.
 ///
 /// \code
@@ -335,8 +386,11 @@ struct Tiled_hierarchy {
 /// const auto segments = hierarchy.segments(Cost_threshold_stop(1)(hierarchy.tree));
 /// \endcode
 /// \throws std::invalid_argument, Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options = {},
-                                   const Progress& progress = {});
+                                   const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>([&] { return internal::hierarchy_of_tiles(tiles, options, progress); });
+}
 
 }  // namespace RW_segmentation
 

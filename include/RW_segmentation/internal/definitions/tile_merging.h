@@ -96,8 +96,9 @@ inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const st
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> fragments_of_tile(const Walked_tile& tile, Tile_regions& regions,
-                                                                       const Progress& progress) {
+RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::fragments_of_tile(const Walked_tile& tile,
+                                                                                 Tile_regions& regions,
+                                                                                 const Progress& progress) {
   const Tile_shape& shape = tile.shape;
   const std::size_t number = tile.place.number;
   internal::Coarse_labels labels = internal::coarse_labels(tile);
@@ -152,8 +153,9 @@ RW_SEGMENTATION_INLINE std::vector<std::vector<std::size_t>> Tiled_hierarchy::se
   return result;
 }
 
-RW_SEGMENTATION_INLINE Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles,
-                                                          const Tiled_segmentation& options, const Progress& progress) {
+RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
+                                                                    const Tiled_segmentation& options,
+                                                                    const Progress& progress) {
   const std::size_t count = tiles.size();
   std::vector<Tile_survey> surveys;
   for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));

@@ -118,8 +118,9 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
-                                                  const Tiled_segmentation& options, const Progress& progress) {
+RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, const Tile_in_plan& place,
+                                                            Tile_noise& noise, const Tiled_segmentation& options,
+                                                            const Progress& progress) {
   const auto& [number, plan] = place;
   const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
   Tile_border border;
@@ -357,10 +358,11 @@ inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std:
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place,
-                                                 const std::vector<Tile_border>& neighbours,
-                                                 const internal::Noise_of_mesh& noise,
-                                                 const Tiled_segmentation& options, const Progress& progress) {
+RW_SEGMENTATION_INLINE Shaped_tile internal::shape_of_tile(const Tile& tile, const Tile_in_plan& place,
+                                                           const std::vector<Tile_border>& neighbours,
+                                                           const internal::Noise_of_mesh& noise,
+                                                           const Tiled_segmentation& options,
+                                                           const Progress& progress) {
   const auto& [number, plan] = place;
   Shaped_tile result;
   auto& [shape, outline] = result;

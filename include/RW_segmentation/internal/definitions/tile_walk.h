@@ -141,9 +141,10 @@ inline std::vector<Thickness_probe> probes_from(const Tile_seeds& seeds, std::si
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_clusters clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place,
-                                                      const Tile_border& border, const Tile_seeds& seeds,
-                                                      Tile_network& network, const Tiled_segmentation& options) {
+RW_SEGMENTATION_INLINE Tile_clusters internal::clusters_of_tile(const Tile_shape& shape, const Tile_in_plan& place,
+                                                                const Tile_border& border, const Tile_seeds& seeds,
+                                                                Tile_network& network,
+                                                                const Tiled_segmentation& options) {
   const auto& [number, plan] = place;
   internal::require_reduction_numbers(options.reduction);
   const internal::Own_graph own(shape);
@@ -204,9 +205,10 @@ inline Dual_graph network_of_tiles(const std::vector<Tile_network>& networks, co
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds,
-                                                 const std::vector<Tile_network>& networks,
-                                                 const Tiled_segmentation& options, const Progress& progress) {
+RW_SEGMENTATION_INLINE Tile_walk internal::walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds,
+                                                           const std::vector<Tile_network>& networks,
+                                                           const Tiled_segmentation& options,
+                                                           const Progress& progress) {
   using Index = Dual_graph::Index;
   Tile_walk walk;
   walk.thickness = internal::thickness_at_probes(networks, seeds.probes.size(), options.thickness.rays);
