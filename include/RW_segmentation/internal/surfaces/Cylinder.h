@@ -45,9 +45,7 @@ struct Cylinder : Surface_of_revolution<Cylinder> {
     cylinder.radius = samples.spread() * (*circle)[2];
     return {cylinder};
   }
-  bool is_sound(const Scaled_samples& samples) const {
-    return radius > 0 && radius < Scaled_samples::largest_ratio * samples.spread();
-  }
+  bool is_sound(const Scaled_samples& samples) const { return samples.can_tell_radius(radius); }
 };
 
 }  // namespace RW_segmentation::internal

@@ -63,7 +63,8 @@ class Face_patches {
     return patch;
   }
 
-  /// As above, but across the flattest edges first.
+  /// As above, but across the flattest edges first: the way with the smallest angle leads on (Prim), whatever lies behind it,
+  /// so that no sum of lengths, and none of the engines for shortest paths, orders the faces.
   Patch flattest_neighbourhood(Index seed, std::size_t vertices) {
     using Way = std::pair<double, Index>;  // its edge's angle, and where it leads
     std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;

@@ -40,6 +40,9 @@ class Scaled_samples {
   /// The root mean square distance of the points from their mean.
   double spread() const { return spread_; }
 
+  /// Whether a surface with that radius can be told from a simpler one.
+  bool can_tell_radius(double radius) const { return radius > 0 && radius < largest_ratio * spread_; }
+
   Eigen::Vector3d scaled(const Eigen::Vector3d& p) const { return (p - mean_) / spread_; }
   Eigen::Vector3d unscaled(const Eigen::Vector3d& p) const { return mean_ + spread_ * p; }
 

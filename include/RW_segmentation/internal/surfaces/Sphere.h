@@ -53,9 +53,7 @@ struct Sphere : Placed_surface {
     sphere.radius = samples.spread() * (*ball)[3];
     return {sphere};
   }
-  bool is_sound(const Scaled_samples& samples) const {
-    return radius > 0 && radius < Scaled_samples::largest_ratio * samples.spread();
-  }
+  bool is_sound(const Scaled_samples& samples) const { return samples.can_tell_radius(radius); }
 };
 
 }  // namespace RW_segmentation::internal

@@ -65,8 +65,8 @@ struct Torus : Surface_of_revolution<Torus> {
 
   bool is_sound(const Scaled_samples& samples) const {
     constexpr double least_ratio = 0.05;  // of the radii; a thinner ring cannot be told from a sphere
-    const double largest = Scaled_samples::largest_ratio * samples.spread();
-    return tube_radius > 0 && tube_radius < largest && radius < largest && radius > least_ratio * tube_radius;
+    return samples.can_tell_radius(tube_radius) && samples.can_tell_radius(radius) &&
+           radius > least_ratio * tube_radius;
   }
 
  private:
