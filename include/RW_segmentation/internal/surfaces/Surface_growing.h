@@ -33,6 +33,10 @@ namespace RW_segmentation::internal {
 ///
 /// Failures teach: where nothing fits about a face, the faces round it are not tried, until a region is taken nearby. So
 /// free forms cost little.
+///
+/// Where a number tells its overlap or Rand error, it was made smaller and larger alone, without noise, and
+/// `benchmark_engineering --data CAD --suffix _t` run: CAD solids as kernels mesh them, .9744 and .0100 with the numbers as
+/// they are.
 class Surface_growing {
  public:
   using Index = Dual_mesh::Index;
@@ -102,10 +106,12 @@ class Surface_growing {
   /// the largest come first.
   std::vector<Pass> passes() const {
     if (tolerance_.is_noisy()) return {{1000}, {400}, {160}, {64}, {24}};
+    // 12 vertices: overlap .9749 at 6, with more segments that are none, .9700 at 24; 3: .9744 at 1.5, .9740 at 6.
     return {{64}, {12}, {12, 0, true}, {3, 10}};
   }
 
   /// Numbers of vertices of the neighbourhoods that surfaces are fitted to first.
+  /// The largest clean one costs most: overlap .9730 at 18 in .9 of the time, .9753 at 72 in 1.3 times the time.
   const std::vector<std::size_t>& first_sizes() const {
     static const std::vector<std::size_t> clean = {7, 10, 12, 36}, noisy = {18, 54, 162};  // few mislead under noise
     return tolerance_.is_noisy() ? noisy : clean;
@@ -223,8 +229,9 @@ class Surface_growing {
 
   /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
   void improve(Region& best, Index seed, const Patch& start, double least_gain) {
-    constexpr double noticeable_ratio = 1.05, noticeable_vertices = 2;
-    constexpr std::size_t least_surplus = 2;  // vertices beyond those that determine a surface
+    constexpr double noticeable_ratio = 1.05, noticeable_vertices = 2;  // ratios of 1 and 1.1 give the same overlap
+    // Vertices beyond those that determine a surface: overlap .9744 at 1, .9668 at 4.
+    constexpr std::size_t least_surplus = 2;
     start_samples_ = patches_.samples_of(start);
     const Surface_fit first_fit(start_samples_, largest_first_residual());
     for (const Surface_type type : analytic_types) {
@@ -253,7 +260,8 @@ class Surface_growing {
   Region region_of_type(Surface_type type, Index seed, const Patch& start, const Surface_fit& first_fit) {
     constexpr int most_rounds = 30;
     // A surface is fitted again each time it has this many times the vertices, until it has grown by 2 % or less: one
-    // that is flooded at once as far as a fit to few vertices leads goes astray.
+    // that is flooded at once as far as a fit to few vertices leads goes astray. From 1.5 to 4 times at first, 2 to 6
+    // times then, and 1 to 4 % the overlap stays within .001.
     constexpr std::size_t first_growth = 2, growth = 3;
     constexpr double little_growth = 1.02;
     constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
@@ -317,7 +325,7 @@ class Surface_growing {
 
   /// Whether a region that is still growing will be such a piece.
   bool has_gone_astray(const Analytic_surface& surface) const {
-    constexpr double astray = 2. / 3;  // of the expected deviation; growing on mends less
+    constexpr double astray = 2. / 3;  // of the expected deviation; overlap .9733 at a third, .9749 at all of it
     return !tolerance_.is_noisy() && is_in_sheet_ && surface.residual > astray * tolerance_.distance;
   }
 
@@ -356,8 +364,9 @@ class Surface_growing {
 
   /// Some of the faces beside a patch, and for each of them one farther away.
   std::vector<Index> seeds_beyond(const Patch& patch) {
-    constexpr std::size_t places = 4;          // round the patch
-    constexpr std::size_t vertices_away = 18;  // of the neighbourhood whose last face is one farther away
+    constexpr std::size_t places = 4;  // round the patch; overlap .9738 at 2, .9741 at 8
+    // Of the neighbourhood whose last face is one farther away: Rand error .0108 at 9, .0106 at 36.
+    constexpr std::size_t vertices_away = 18;
     const std::vector<Index> beside = patches_.faces_beside(patch);
     std::vector<Index> seeds;
     for (std::size_t i = 0; i < std::min(places, beside.size()); ++i) {
@@ -388,7 +397,7 @@ class Surface_growing {
 
   /// Faces near a seed about which too little was gained are not tried.
   void expect_no_more(Index seed, const Region& region) {
-    constexpr double doubt = 1.3;  // how many times as much may be gained about another face
+    constexpr double doubt = 1.3;  // how many times as much may be gained about another face; overlap .9733 at 2
     constexpr double part_of_farthest = 0.25;
     if (tolerance_.is_noisy()) expect_no_more_of(seed, region);
     if (!is_in_sheet_ || (tolerance_.is_noisy() && region.gain > 0)) return;
@@ -423,7 +432,7 @@ class Surface_growing {
 
   /// Where a region has been taken, neighbourhoods are others than before.
   void expect_anything_beside(const Patch& taken) {
-    constexpr int rings = 3;  // of faces
+    constexpr int rings = 3;  // of faces; overlap .9749 with 1, .9755 with 6
     if (tolerance_.is_noisy()) return;
     std::vector<Index> ring = patches_.faces_beside(taken), next;
     for (int i = 0; i < rings; ++i, ring.swap(next)) {
@@ -437,8 +446,12 @@ class Surface_growing {
     }
   }
 
-  static constexpr double exact = 1. / 3;    // of the expected deviation: vertices of clean surfaces are no farther off
-  static constexpr double part_about = 0.5;  // of the neighbourhood of a seed, what is as deep in a sheet as it is
+  /// Of the expected deviation: vertices of clean surfaces are no farther off. Overlap .9614 at a sixth. At two thirds
+  /// .9856, but .973 in place of .977 and .989 in place of .991 on the same solids meshed evenly (`_5k`, `_30k`), and
+  /// an eighth more segments than there are.
+  static constexpr double exact = 1. / 3;
+  /// Of the neighbourhood of a seed, what is as deep in a sheet as it is: overlap .9761 at a quarter, .9753 at all.
+  static constexpr double part_about = 0.5;
 
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
