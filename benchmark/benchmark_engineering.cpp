@@ -6,7 +6,9 @@
 #include "../test/solids.h"
 #include "measurement.h"
 #include "segmentation_measures.h"
+#include "surface_numbers.h"
 
+#include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
@@ -55,11 +57,23 @@ struct Subject {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   std::vector<std::vector<std::size_t>> faces;
-  Labels truth;  // of each face
+  Labels truth;                                 // of each face
+  std::vector<Analytic_surface> surfaces = {};  // of each label, where the numbers are asked for
 };
 
 Subject subject_of(const solids::Solid& solid, const std::string& meshing) {
-  return {solid.name + meshing, solid.points, solid.faces, solid.label};
+  Subject subject = {solid.name + meshing, solid.points, solid.faces, solid.label};
+  for (const solids::Surface& surface : solid.surfaces) {
+    subject.surfaces.emplace_back();
+    Analytic_surface& design = subject.surfaces.back();
+    design.type = static_cast<Surface_type>(surface.type);
+    design.point = surface.point;
+    design.direction = surface.direction;
+    design.radius = surface.radius;
+    design.tube_radius = surface.tube_radius;
+    design.half_angle = surface.half_angle;
+  }
+  return subject;
 }
 
 std::vector<Subject> constructed_solids(double edge_length) {
@@ -71,7 +85,9 @@ std::vector<Subject> constructed_solids(double edge_length) {
 }
 
 /// NAME_5k.off and NAME_5k.seg, with one label a line in the order of the triangles.
-std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const std::string& suffix) {
+/// \param has_numbers whether NAME.json tells the numbers of the surfaces
+std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const std::string& suffix,
+                                      bool has_numbers) {
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().stem().string();
@@ -92,6 +108,9 @@ std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const
     for (std::size_t label = 0; labels >> label;) subject.truth.push_back(label);
     if (subject.truth.size() != subject.faces.size())
       throw std::runtime_error(path.string() + ": not one label for each face");
+    if (has_numbers)
+      subject.surfaces = surface_numbers::surfaces_of_design(
+          folder / (subject.name.substr(0, subject.name.size() - suffix.size()) + ".json"));
     subjects.push_back(std::move(subject));
   }
   return subjects;
@@ -176,6 +195,7 @@ const std::vector<std::pair<std::string, Method>>& methods() {
 struct Score {
   double error = 0, boundary_error = 0, overlap = 0, segments = 0, true_segments = 0, matched = 0, milliseconds = 0;
   double roughly_matched = 0;
+  surface_numbers::Count numbers;
   double stability = 0;  ///< overlap with what is found when the faces are numbered at random
 };
 
@@ -220,6 +240,36 @@ void add_overlap(const Mesh& mesh, const Labels& a, const Labels& b, Score& scor
   score.true_segments = static_cast<double>(of_b.size());
 }
 
+/// Compares the numbers of the surfaces with those of the design, for each segment of it with a fiftieth of the area or
+/// more; the segment found for it is that of the best intersection over union.
+surface_numbers::Count numbers_of(const Mesh& mesh, Labels labels, const Subject& subject) {
+  std::map<std::size_t, double> found_area, true_area;
+  std::map<std::size_t, std::map<std::size_t, double>> common;
+  double total = 0;
+  for (const auto f : mesh.faces()) {
+    const double share = area(mesh, f);
+    found_area[labels[f]] += share;
+    true_area[subject.truth[f]] += share;
+    common[subject.truth[f]][labels[f]] += share;
+    total += share;
+  }
+  const auto surfaces =
+      segment_surfaces(mesh, Label_map(labels.data(), get(boost::face_index, mesh)), found_area.rbegin()->first + 1);
+  surface_numbers::Count count;
+  for (const auto& [truth, shares] : common) {
+    if (true_area[truth] < 0.02 * total) continue;
+    double best = 0;
+    std::size_t match = 0;
+    for (const auto& [label, share] : shares) {
+      const double ratio = share / (found_area[label] + true_area[truth] - share);
+      if (ratio > best) match = label;
+      best = std::max(best, ratio);
+    }
+    surface_numbers::add(surfaces[match], subject.surfaces.at(truth), count);
+  }
+  return count;
+}
+
 /// The length of the edges that are a boundary in one segmentation only, as a part of the length of all boundaries.
 double boundary_error(const Mesh& mesh, const Labels& a, const Labels& b) {
   double differing = 0, all = 0;
@@ -260,8 +310,8 @@ double stability(const Subject& subject, const Method& method, double noise, uns
   return score.overlap;
 }
 
-Score score_of(const Subject& subject, const Method& method, double noise, unsigned noise_seed,
-               bool measures_stability) {
+Score score_of(const Subject& subject, const Method& method, double noise, unsigned noise_seed, bool measures_stability,
+               bool has_numbers) {
   const Mesh mesh = mesh_of(subject, noise, noise_seed);
   Score score;
   const Stopwatch watch;
@@ -270,6 +320,7 @@ Score score_of(const Subject& subject, const Method& method, double noise, unsig
   if (measures_stability) score.stability = stability(subject, method, noise, noise_seed, mesh, labels);
   score.error = segmentation_measures::Overlaps(labels, subject.truth).rand_index_error();
   score.boundary_error = boundary_error(mesh, labels, subject.truth);
+  if (has_numbers) score.numbers = numbers_of(mesh, labels, subject);
   add_overlap(mesh, labels, subject.truth, score);
   return score;
 }
@@ -291,6 +342,10 @@ Result result_of(const std::string& set, const std::string& method, double noise
     mean.milliseconds += s.milliseconds / n;
     mean.stability += s.stability / n;
     ratio += s.segments / s.true_segments / n;
+    mean.numbers.faces += s.numbers.faces;
+    mean.numbers.of_type += s.numbers.of_type;
+    mean.numbers.right += s.numbers.right;
+    mean.numbers.within_errors += s.numbers.within_errors;
   }
   Result result("engineering");
   result.add("set", set).add("method", method).add("meshes", scores.size()).add("noise", noise);
@@ -301,6 +356,11 @@ Result result_of(const std::string& set, const std::string& method, double noise
       .add("true_segments", mean.true_segments);
   result.add("segment_ratio", ratio).add("ms_per_mesh", mean.milliseconds);
   if (mean.stability > 0) result.add("stability", mean.stability);
+  if (mean.numbers.faces > 0)
+    result.add("radii", mean.numbers.faces)
+        .add("of_type", mean.numbers.share(mean.numbers.of_type))
+        .add("right_radii", mean.numbers.share(mean.numbers.right))
+        .add("within_errors", mean.numbers.share(mean.numbers.within_errors));
   return result;
 }
 
@@ -313,7 +373,7 @@ int main(int argc, char* argv[]) {
   std::vector<double> noises = {0};
   double edge_length = 0.1;
   unsigned noise_seeds = 1;
-  bool measures_stability = false;
+  bool measures_stability = false, has_numbers = false;
   std::vector<std::string> names;
   for (const auto& [name, method] : methods()) names.push_back(name);
   app.add_option("--data", data, "folder with NAME_5k.off, NAME_5k.seg, ...; default: solids that are made here")
@@ -330,6 +390,9 @@ int main(int argc, char* argv[]) {
       ->capture_default_str();
   app.add_flag("--stability", measures_stability,
                "also segment each mesh with its faces numbered at random, and tell how far both agree");
+  app.add_flag(
+      "--numbers", has_numbers,
+      "also compare the radii of the faces of 2 percent of the area with those of the design, which NAME.json tells");
   app.add_option("--edge-length", edge_length, "of the evenly meshed solids, whose diagonals are 3 to 5")
       ->check(CLI::Range(0.01, 1.))
       ->capture_default_str();
@@ -340,7 +403,8 @@ int main(int argc, char* argv[]) {
     if (data.empty())
       sets.emplace_back("constructed", constructed_solids(edge_length));
     else
-      for (const std::string& suffix : suffixes) sets.emplace_back("cad" + suffix, solids_in_folder(data, suffix));
+      for (const std::string& suffix : suffixes)
+        sets.emplace_back("cad" + suffix, solids_in_folder(data, suffix, has_numbers));
     std::vector<Result> results;
     for (const auto& [set, subjects] : sets)
       for (const std::string& name : chosen)
@@ -352,7 +416,7 @@ int main(int argc, char* argv[]) {
           std::vector<Score> scores;
           for (const Subject& subject : subjects)
             for (unsigned noise_seed = 1; noise_seed <= (noise > 0 ? noise_seeds : 1); ++noise_seed) {
-              const Score s = score_of(subject, method->second, noise, noise_seed, measures_stability);
+              const Score s = score_of(subject, method->second, noise, noise_seed, measures_stability, has_numbers);
               std::printf("%-44s %8.4f %8.4f %8.4f %8.2f %8.2f %8.0f %8.0f %9.1f\n", subject.name.c_str(), s.error,
                           s.boundary_error, s.overlap, s.matched, s.roughly_matched, s.segments, s.true_segments,
                           s.milliseconds);

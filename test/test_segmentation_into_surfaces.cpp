@@ -477,12 +477,17 @@ TEST(FaceRefinement, KeepsWallsBetweenTrianglesOfFacesThatHaveOne) {
 
 // ---- The surfaces of the segments ----
 
+/// The surfaces of a solid's own segments.
+std::vector<Analytic_surface> surfaces_of(const solids::Solid& solid) {
+  const auto mesh = meshes::surface_mesh(shape_of(solid));
+  const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
+  return segment_surfaces(mesh, ids, solid.surfaces.size());
+}
+
 TEST(SegmentSurfaces, AreThoseTheSolidWasMadeOf) {
   for (const auto& meshing : {solids::even(0.15), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       SCOPED_TRACE(solid.name);
-      // A kernel makes its chamfer of two circles, through which spheres pass as well as cones.
-      if (solid.name == std::string("stepped_shaft") && !meshing.is_even) continue;
       const auto mesh = meshes::surface_mesh(shape_of(solid));
       const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
       const auto surfaces = segment_surfaces(mesh, ids, solid.surfaces.size());
@@ -495,6 +500,88 @@ TEST(SegmentSurfaces, AreThoseTheSolidWasMadeOf) {
         EXPECT_LT(surfaces[s].residual, 1e-6);
       }
     }
+}
+
+/// A plate with a drilled hole that has a chamfer: planes, cylinder and cone, whose vertices lie on circles.
+solids::Solid plate_with_countersunk_hole() {
+  using namespace solids;
+  Builder builder("plate_with_countersunk_hole");
+  const Point up = Point::UnitZ();
+  const Meshing meshing = by_kernel();
+  const std::size_t around = meshing.around(1);
+  const auto add = [&](const Surface& surface, const Point& a, const Point& b) {
+    revolve(builder, builder.add(surface), around, 1, line(a, b));
+  };
+  add(plane({0, 0, 0}, -up), {0.5, 0, 0}, {2, 0, 0});
+  add(cylinder({0, 0, 0}, up, 2), {2, 0, 0}, {2, 0, 0.5});
+  add(plane({0, 0, 0.5}, up), {2, 0, 0.5}, {0.6, 0, 0.5});
+  add(cone({0, 0, -0.1}, up, half_turn / 4), {0.6, 0, 0.5}, {0.5, 0, 0.4});
+  add(cylinder({0, 0, 0}, up, 0.5), {0.5, 0, 0.4}, {0.5, 0, 0});
+  return std::move(builder).solid();
+}
+
+TEST(SegmentSurfaces, OfAChamferBetweenAPlaneAndACylinderIsACone) {
+  const solids::Solid solid = plate_with_countersunk_hole();
+  const auto surfaces = surfaces_of(solid);
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    EXPECT_EQ(surfaces[s].type, analytic_types[static_cast<std::size_t>(solid.surfaces[s].type)]) << s;
+  EXPECT_NEAR(surfaces[3].half_angle, solids::half_turn / 4, 1e-9);
+}
+
+TEST(SegmentSurfaces, HaveStandardErrorsThatNoiseBearsOut) {
+  // One number of each type is compared with the design, divided by its error: the squares have a mean of 1.
+  constexpr unsigned trials = 15;
+  std::map<Surface_type, double> squares;
+  std::map<Surface_type, double> numbers;
+  for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.1)), solids::capsule(solids::even(0.1))})
+    for (unsigned seed = 1; seed <= trials; ++seed) {
+      const auto surfaces = surfaces_of(solids::with_noise(solid, 0.02, seed));
+      for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const auto& found = surfaces[s];
+        const auto& design = solid.surfaces[s];
+        if (static_cast<std::size_t>(found.type) != static_cast<std::size_t>(design.type)) continue;
+        const auto add = [&](double a, double b, double error) {
+          squares[found.type] += (a - b) * (a - b) / (error * error);
+          ++numbers[found.type];
+        };
+        if (found.type == Surface_type::plane)
+          add(std::sin(std::acos(std::min(1., std::abs(found.direction.dot(design.direction))))), 0,
+              std::sqrt(2) * found.errors.direction);
+        else if (found.type == Surface_type::cone)
+          add(found.half_angle, design.half_angle, found.errors.half_angle);
+        else
+          add(found.radius, design.radius, found.errors.radius);
+      }
+    }
+  ASSERT_EQ(squares.size(), analytic_types.size());
+  for (const auto& [type, sum] : squares) {
+    // The errors are right within a factor of two. One in a thousand means of 15 squares is beyond.
+    EXPECT_GT(sum / numbers[type], 0.25) << name_of(type);
+    EXPECT_LT(sum / numbers[type], 4) << name_of(type);
+  }
+}
+
+TEST(SegmentSurfaces, AreFoundBesideAFewWrongFaces) {
+  for (const auto& meshing : {solids::even(0.1), solids::by_kernel()}) {
+    solids::Solid solid = solids::capsule(meshing);
+    const solids::Solid right = solid;
+    // A face of each hemisphere goes to the cylinder.
+    for (const std::size_t label : {1, 2}) *std::find(solid.label.begin(), solid.label.end(), label) = 0;
+    const auto surfaces = surfaces_of(solid);
+    EXPECT_EQ(surfaces[0].type, Surface_type::cylinder);
+    EXPECT_NEAR(surfaces[0].radius, right.surfaces[0].radius, 1e-9);
+  }
+}
+
+TEST(SegmentSurfaces, OfFewVerticesHaveInfiniteErrors) {
+  const auto mesh = meshes::surface_mesh(meshes::cube());
+  Labels labels;
+  for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) labels.push_back(f);  // three vertices each
+  const auto ids = boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh));
+  for (const Analytic_surface& surface : segment_surfaces(mesh, ids, labels.size())) {
+    EXPECT_EQ(surface.type, Surface_type::plane);
+    EXPECT_EQ(surface.errors.direction, std::numeric_limits<double>::infinity());
+  }
 }
 
 TEST(SegmentSurfaces, RefusesIdsOutOfRange) {

@@ -45,6 +45,17 @@ int degrees_of_freedom(Surface_type type);
 /// A type in words: "plane", "cylinder", ..., "free form".
 const char* name_of(Surface_type type);
 
+/// The standard deviations of a surface's numbers. Infinite where points do not tell a number, 0 of what the surface has
+/// not.
+struct Surface_errors {
+  /// Of the point, in the direction in which it is known least; along a plane or a cylinder's axis it may be anywhere.
+  double point = 0;
+  double direction = 0;    ///< of the direction's turn, in radians, likewise
+  double radius = 0;       ///< of the radius
+  double tube_radius = 0;  ///< of the torus
+  double half_angle = 0;   ///< of the cone, in radians
+};
+
 /// An unbounded plane, sphere, cylinder, cone or torus. A free form has none of the numbers.
 struct Analytic_surface {
   Surface_type type = Surface_type::free_form;  ///< which of them it is
@@ -56,6 +67,7 @@ struct Analytic_surface {
   double tube_radius = 0;  ///< of the torus
   double half_angle = 0;   ///< of the cone, between axis and surface, in radians
   double residual = 0;     ///< root mean square distance of what it was fitted to
+  Surface_errors errors;   ///< as `segment_surfaces()` estimates them, 0 otherwise
 
   /// Distance of a point, negative on the side that `normal()` points away from.
   /// \pre the surface is no free form

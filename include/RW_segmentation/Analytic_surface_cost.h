@@ -116,6 +116,9 @@ class Analytic_surface_cost {
   /// The surface that explains a region best, in the unit box.
   const Analytic_surface& surface_of(const Region& region) const;
 
+  /// The vertices and faces of a region, in the unit box.
+  Surface_samples samples_of(const Region& region) const;
+
  private:
   static constexpr double impossible = 1e12;  // a cost above all others
 
@@ -126,8 +129,6 @@ class Analytic_surface_cost {
   double misfit_of_known(const Region& a, const Region& b) const;
 
   double cost_of(const Region& region) const;
-
-  Surface_samples samples_of(const Region& region) const;
 
   /// 1 where the variance of the distances is that of one and a half of the expected deviation.
   double distance_term(const Analytic_surface& surface, const Surface_samples& samples, double surplus) const;

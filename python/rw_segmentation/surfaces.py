@@ -21,32 +21,44 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane through a point; `residual` is the root mean square distance of the vertices, in the mesh's unit."""
+    """A plane through a point.
+
+    `residual` is the root mean square distance of the vertices, in the mesh's unit. Errors are standard deviations, of
+    positions and directions where these are known least, in the mesh's unit and in radians; infinite where the vertices
+    do not tell a number.
+    """
 
     point: Vector
     normal: Vector
     residual: float
+    point_error: float = 0
+    normal_error: float = 0
     type: str = field(default="plane", init=False)
 
 
 @dataclass(frozen=True)
 class Sphere:
-    """A sphere by its centre and radius; `residual` as for `Plane`."""
+    """A sphere by its centre and radius; `residual` and errors as for `Plane`."""
 
     center: Vector
     radius: float
     residual: float
+    center_error: float = 0
+    radius_error: float = 0
     type: str = field(default="sphere", init=False)
 
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A cylinder by a point of its axis, the axis and the radius; `residual` as for `Plane`."""
+    """A cylinder by a point of its axis, the axis and the radius; `residual` and errors as for `Plane`."""
 
     point: Vector
     axis: Vector
     radius: float
     residual: float
+    point_error: float = 0
+    axis_error: float = 0
+    radius_error: float = 0
     type: str = field(default="cylinder", init=False)
 
 
@@ -58,6 +70,9 @@ class Cone:
     axis: Vector
     half_angle: float
     residual: float
+    apex_error: float = 0
+    axis_error: float = 0
+    half_angle_error: float = 0
     type: str = field(default="cone", init=False)
 
 
@@ -70,6 +85,10 @@ class Torus:
     radius: float
     tube_radius: float
     residual: float
+    center_error: float = 0
+    axis_error: float = 0
+    radius_error: float = 0
+    tube_radius_error: float = 0
     type: str = field(default="torus", init=False)
 
 
@@ -87,16 +106,18 @@ def surface_of(numbers: dict[str, Any]) -> Surface:
     """Make the dataclass of a surface."""
     kind, point, direction = numbers["type"], numbers["point"], numbers["direction"]
     residual, radius = numbers["residual"], numbers["radius"]
+    at, turn, of_radius = numbers["point_error"], numbers["direction_error"], numbers["radius_error"]
     if kind == "plane":
-        return Plane(point, direction, residual)
+        return Plane(point, direction, residual, at, turn)
     if kind == "sphere":
-        return Sphere(point, radius, residual)
+        return Sphere(point, radius, residual, at, of_radius)
     if kind == "cylinder":
-        return Cylinder(point, direction, radius, residual)
+        return Cylinder(point, direction, radius, residual, at, turn, of_radius)
     if kind == "cone":
-        return Cone(point, direction, numbers["half_angle"], residual)
+        return Cone(point, direction, numbers["half_angle"], residual, at, turn, numbers["half_angle_error"])
     if kind == "torus":
-        return Torus(point, direction, radius, numbers["tube_radius"], residual)
+        of_tube = numbers["tube_radius_error"]
+        return Torus(point, direction, radius, numbers["tube_radius"], residual, at, turn, of_radius, of_tube)
     return FreeForm()
 
 

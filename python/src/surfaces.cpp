@@ -39,6 +39,11 @@ nb::dict numbers_of(const RW::Analytic_surface& surface) {
   result["tube_radius"] = surface.tube_radius;
   result["half_angle"] = surface.half_angle;
   result["residual"] = surface.residual;
+  result["point_error"] = surface.errors.point;
+  result["direction_error"] = surface.errors.direction;
+  result["radius_error"] = surface.errors.radius;
+  result["tube_radius_error"] = surface.errors.tube_radius;
+  result["half_angle_error"] = surface.errors.half_angle;
   return result;
 }
 

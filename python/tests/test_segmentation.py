@@ -358,6 +358,9 @@ def test_surfaces_of_a_part_are_found_with_their_numbers() -> None:
     assert sorted(surface.type for surface in surfaces) == ["cylinder", "plane", "plane"]
     cylinder = next(surface for surface in surfaces if isinstance(surface, rw.Cylinder))
     assert cylinder.radius == pytest.approx(2, rel=1e-3)
+    assert 0 <= cylinder.radius_error < 1e-3
+    assert 0 <= cylinder.axis_error < 1e-3
+    assert 0 <= cylinder.point_error < 1e-3
     assert np.abs(cylinder.axis) == pytest.approx((0, 0, 1), abs=1e-6)
     assert cylinder.point[:2] == pytest.approx((10, 0), abs=1e-3)
     assert labels.max() + 1 == len(surfaces)

@@ -21,6 +21,7 @@ namespace RW_segmentation::internal {
 struct Cone : Surface_of_revolution<Cone> {
   static constexpr const char* name = "cone";
   static constexpr int degrees_of_freedom = 6;
+  static constexpr int shifts = 3, turns = 2;
   static constexpr bool is_placed_along_axis = true;
 
   double half_angle = 0;

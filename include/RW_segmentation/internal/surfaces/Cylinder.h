@@ -17,6 +17,7 @@ namespace RW_segmentation::internal {
 struct Cylinder : Surface_of_revolution<Cylinder> {
   static constexpr const char* name = "cylinder";
   static constexpr int degrees_of_freedom = 5;
+  static constexpr int shifts = 2, turns = 2;
   static constexpr bool is_placed_along_axis = false;
 
   double radius = 0;

@@ -41,10 +41,18 @@ class Least_squares_surface {
   /// Root mean square distance of the points.
   double residual() const { return std::sqrt(sum_ / number_of_points()); }
 
+  using Matrix = Eigen::Matrix<double, Type::degrees_of_freedom, Type::degrees_of_freedom>;
+
+  /// The matrix of the normal equations, whose inverse times the variance of the distances is the covariance of the
+  /// unknowns; see `Type::derivatives()`.
+  Matrix normal_matrix() {
+    linearise(typename Type::Frame(surface_));
+    return hessian_.template selfadjointView<Eigen::Lower>();
+  }
+
  private:
   static constexpr int unknowns = Type::degrees_of_freedom;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
-  using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 
   double number_of_points() const { return static_cast<double>(points_.size()); }
 

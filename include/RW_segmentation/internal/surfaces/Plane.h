@@ -17,6 +17,7 @@ namespace RW_segmentation::internal {
 struct Plane : Placed_surface {
   static constexpr const char* name = "plane";
   static constexpr int degrees_of_freedom = 3;
+  static constexpr int shifts = 1, turns = 2;
   static constexpr bool first_guess_is_closest = true;
 
   template <class Surface>
@@ -26,6 +27,13 @@ struct Plane : Placed_surface {
 
   double distance(const Eigen::Vector3d& p) const { return (p - point).dot(direction); }
   Eigen::Vector3d normal(const Eigen::Vector3d&) const { return direction; }
+
+  template <class Row>
+  double derivatives(const Eigen::Vector3d& p, const Frame& frame, Row& row) const {
+    const Eigen::Vector3d q = p - point;
+    row << -1, q.dot(frame.first), q.dot(frame.second);
+    return q.dot(direction);
+  }
 
   static std::vector<Plane> first_guesses(const Scaled_samples& samples) {
     Plane plane;

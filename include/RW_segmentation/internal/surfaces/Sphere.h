@@ -19,6 +19,7 @@ namespace RW_segmentation::internal {
 struct Sphere : Placed_surface {
   static constexpr const char* name = "sphere";
   static constexpr int degrees_of_freedom = 4;
+  static constexpr int shifts = 3, turns = 0;
 
   double radius = 0;
 

@@ -27,8 +27,9 @@ namespace RW_segmentation::internal {
 /// - `distance(p)`, signed, and `normal(p)`, the gradient of it;
 /// - `first_guesses(samples)`, surfaces not far from `Scaled_samples`; `first_guess_is_closest` says that they are the
 ///   closest ones in the sense of least squares already;
-/// - `derivatives(p, frame, row)`, unless they are: writes the derivatives of the distance by as many unknowns as there
-///   are degrees of freedom, and returns the distance; `moved(step, frame)`, the surface after a step in these unknowns;
+/// - `derivatives(p, frame, row)`: writes the derivatives of the distance by as many unknowns as there are degrees of
+///   freedom, `shifts` of the point, `turns` of the direction, and the numbers of the shape, and returns the distance;
+///   `moved(step, frame)`, unless first guesses are the closest: the surface after a step in these unknowns;
 ///   `Frame(surface)`, what the unknowns refer to;
 /// - `is_sound(samples)`: whether the samples tell it from a simpler surface.
 using Surface_types = std::tuple<Plane, Sphere, Cylinder, Cone, Torus>;

@@ -22,6 +22,7 @@ namespace RW_segmentation::internal {
 struct Torus : Surface_of_revolution<Torus> {
   static constexpr const char* name = "torus";
   static constexpr int degrees_of_freedom = 7;
+  static constexpr int shifts = 3, turns = 2;
   static constexpr bool is_placed_along_axis = true;
 
   double radius = 0, tube_radius = 0;
