@@ -695,6 +695,21 @@ TEST_F(Segment_mesh_tool, NoSegmentLiesOnBothSidesOfAClosedLoopOfWalls) {
                  {"cube.off", "--constraints", "belt.txt", "--segments", "1", "--quiet"});
 }
 
+TEST_F(Segment_mesh_tool, ReportsTheErrorsOfSurfacesAndWhatIsMadeRegular) {
+  write("cube.off", cube_of_separate_squares(4));
+  ASSERT_EQ(run({"cube.off", "--engineering", "--regular", "--report", "c.json"}).exit_code, 0);
+  const auto report = nlohmann::json::parse(content_of(path("c.json")));
+  for (const auto& segment : report["segments"]) {
+    EXPECT_LT(segment["surface"]["errors"]["point"], 1e-9);
+    EXPECT_LT(segment["surface"]["errors"]["normal"], 1e-9);
+  }
+  std::map<std::string, int> snaps;
+  for (const auto& snap : report["regular"]) ++snaps[snap["regularity"]];
+  EXPECT_EQ(snaps, (std::map<std::string, int>{{"parallel", 3}, {"perpendicular", 3}}));
+  expect_failure(1, "--engineering", {"cube.off", "--regular"});
+  expect_failure(1, "give --regular, too", {"cube.off", "--engineering", "--regular-angle", "1"});
+}
+
 TEST_F(Segment_mesh_tool, EdgesSharperThanAnAngleAreWalls) {
   constexpr std::size_t n = 5;
   write("cube.off", cube_of_separate_squares(n));

@@ -71,8 +71,9 @@ struct Options : Choices {
   Repairs repairs;
 
   std::vector<std::string> seeds;  ///< see `seed_argument()`
-  bool is_engineering = false;
-  std::optional<double> constraints_angle;  ///< in degrees
+  bool is_engineering = false, is_regular = false;
+  std::optional<double> regular_length, regular_angle;  ///< in the mesh's unit, in degrees
+  std::optional<double> constraints_angle;              ///< in degrees
 
   bool is_smooth = false, is_refined = false;
   Files files;       ///< patterns of paths, see `path_for()`
@@ -113,6 +114,8 @@ inline void check_method(const Options& options) {
   const auto refuse = [](bool is_given, const char* option, const std::string& what_to_do) {
     if (is_given) throw CLI::ValidationError(option, what_to_do);
   };
+  refuse((options.regular_length || options.regular_angle) && !options.is_regular, "--regular-length, --regular-angle",
+         "they tell what is regular: give --regular, too");
   if (options.is_engineering) {
     const auto refuse_beside_surfaces = [&](bool is_given, const std::string& option) {
       refuse(is_given, option.c_str(), "surfaces are found without it: leave out --engineering or " + option);

@@ -13,6 +13,7 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Merge_tree.h>
+#include <RW_segmentation/regular_surfaces.h>
 
 #include <cstddef>
 #include <vector>
@@ -31,6 +32,7 @@ struct Segmentation {
   std::size_t suggested = 0;                                ///< segments by the shape, whatever was asked for; likewise
   std::vector<std::size_t> fragment;                        ///< of each face, likewise
   std::vector<RW_segmentation::Analytic_surface> surfaces;  ///< of each label; only for parts of machines
+  std::vector<RW_segmentation::Surface_snap> snaps;         ///< what was made regular, if that was asked for
 };
 
 /// The mesh as the library sees it.

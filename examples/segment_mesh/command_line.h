@@ -178,6 +178,20 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->excludes(coarse)
       ->excludes(paper)
       ->group("Automatic segments");
+  app.add_flag(
+         "--regular", options.is_regular,
+         "Makes surfaces that are nearly parallel, perpendicular, coplanar, coaxial or equal in their radii exactly\n"
+         "that, within three standard errors or the tolerances below; --report has each change")
+      ->needs("--engineering")
+      ->group("Automatic segments");
+  app.add_option("--regular-length", options.regular_length,
+                 "What positions and radii may differ by for --regular, in the mesh's unit, instead of standard errors")
+      ->check(CLI::NonNegativeNumber)
+      ->group("Automatic segments");
+  app.add_option("--regular-angle", options.regular_angle,
+                 "What directions may differ by for --regular, in degrees, instead of standard errors")
+      ->check(CLI::Range(0., 45.))
+      ->group("Automatic segments");
 
   add_choice(app, "--difference", options.difference, difference_names,
              "What makes neighbouring faces differ: the angle between them as in the paper, its concavity (default),\n"
