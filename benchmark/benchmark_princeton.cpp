@@ -243,11 +243,13 @@ Outcome_of_method by_region_growing(const Subject& subject) {
   return outcome;
 }
 
-/// The choice that `segment_mesh --thorough` makes.
-Automatic_segmentation thorough(Automatic_segmentation policy) {
-  policy.seedings = 4;
+Automatic_segmentation with_seedings(std::size_t seedings, Automatic_segmentation policy) {
+  policy.seedings = seedings;
   return policy;
 }
+
+/// The choice that `segment_mesh --thorough` makes.
+Automatic_segmentation thorough(const Automatic_segmentation& policy) { return with_seedings(4, policy); }
 
 Automatic_segmentation with_reduced_walk() {
   Automatic_segmentation policy;
@@ -318,6 +320,12 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
       {"thorough_count",
        [=](const Subject& s) {
          return automatically(s, thorough(Automatic_segmentation(typical_number_of_segments(s))), folds);
+       }},
+      {"one_seeding",
+       [=](const Subject& s) { return automatically(s, with_seedings(1, Automatic_segmentation()), folds); }},
+      {"one_seeding_count",
+       [=](const Subject& s) {
+         return automatically(s, with_seedings(1, Automatic_segmentation(typical_number_of_segments(s))), folds);
        }},
       {"levels", [=](const Subject& s) { return automatically(s, Automatic_segmentation(), folds, true); }},
       {"size_aware",
@@ -568,7 +576,7 @@ int main(int argc, char* argv[]) {
       ->check(CLI::Range(1, 1024));
   auto* fold_option = app.add_option("--folds", folds,
                                      "what the trees of the learned merge cost know nothing of: the mesh's category;\n"
-                                     "compares with the size-aware cost, and several seedings with one")
+                                     "compares with the size-aware cost, and numbers of seedings")
                           ->check(CLI::IsMember({"category"}));
   app.add_option("--trees", trees, "file of such trees, as train_merge_cost.py writes it to its --folds")
       ->check(CLI::ExistingFile)
@@ -585,8 +593,8 @@ int main(int argc, char* argv[]) {
     if (!folds.empty()) {
       if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
       trees_of_folds.emplace(trees);
-      chosen = {"automatic", "size_aware",        "count",    "size_aware_count",
-                "levels",    "size_aware_levels", "thorough", "thorough_count"};
+      chosen = {"automatic",         "size_aware", "count",          "size_aware_count", "levels",
+                "size_aware_levels", "thorough",   "thorough_count", "one_seeding",      "one_seeding_count"};
     }
     const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 
@@ -608,7 +616,8 @@ int main(int argc, char* argv[]) {
       results.push_back(result_of(chosen[m], changes, scores[m]));
     }
     // By their places among the methods chosen.
-    const std::vector<std::pair<std::size_t, std::size_t>> comparisons = {{0, 1}, {2, 3}, {4, 5}, {6, 0}, {7, 2}};
+    const std::vector<std::pair<std::size_t, std::size_t>> comparisons = {{0, 1}, {2, 3}, {4, 5}, {6, 0},
+                                                                          {7, 2}, {0, 8}, {2, 9}};
     for (std::size_t i = 0; trees_of_folds && i < comparisons.size(); ++i) {
       const auto [m, other] = comparisons[i];
       print_comparison(chosen[m], scores[m], chosen[other], scores[other]);

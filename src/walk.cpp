@@ -12,6 +12,7 @@
 #include <RW_segmentation/internal/definitions/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/definitions/coarse_seeds.h>
 #include <RW_segmentation/internal/definitions/feature_sensitive_seeds.h>
+#include <RW_segmentation/internal/definitions/further_seedings.h>
 #include <RW_segmentation/internal/definitions/region_boundaries.h>
 #include <RW_segmentation/internal/definitions/segmentation_via_random_walks.h>
 #include <RW_segmentation/internal/definitions/transfer_segments.h>

@@ -228,13 +228,32 @@ TEST(Seedings, KeepTheSeedsThatAreGiven) {
 
 TEST(Seedings, TakePoliciesOfAnyType) {
   const Mesh mesh = meshes::surface_mesh(dumbbell(24));
-  // The same seeds whatever is given, and a cost without sums of its own.
+  // Seeds that nobody knows how to place anew, and a cost without sums of its own.
   const auto seeding = [](const Dual_mesh& dual, const std::vector<double>&, const std::vector<Index>&) {
     return std::vector<Index>{0, static_cast<Index>(dual.number_of_faces() / 2), 5};
   };
   auto policies = Automatic_segmentation().with_seeding(seeding).with_merge_cost(Size_aware_cost());
   policies.seedings = 3;
   const auto hierarchy = hierarchy_via_random_walks(mesh, policies);
-  EXPECT_EQ(hierarchy.number_of_fragments(), 3u);
   EXPECT_EQ(hierarchy.report().seeds, 3u);
+  // Each piece lies in one of the three fragments that there are without further seedings.
+  policies.seedings = 1;
+  const auto alone = hierarchy_via_random_walks(mesh, policies);
+  EXPECT_EQ(alone.number_of_fragments(), 3u);
+  Face_labels<Mesh> pieces(mesh), fragments(mesh);
+  hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), pieces.map());
+  alone.segments(Segment_count_stop(3), fragments.map());
+  std::map<std::size_t, std::set<std::size_t>> fragments_of;
+  for (const auto f : faces(mesh)) fragments_of[get(pieces.map(), f)].insert(get(fragments.map(), f));
+  for (const auto& [piece, of] : fragments_of) EXPECT_EQ(of.size(), 1u) << piece;
+}
+
+TEST(Seedings, GoByTheFirstOneForWhatNoOtherKnows) {
+  // The second one begins at the last seed of the first one, and so parts the mesh elsewhere, but not across its creases.
+  const Mesh mesh = meshes::surface_mesh(meshes::with_noise(dumbbell(), 0.003));
+  const auto one = hierarchy_via_random_walks(mesh, thorough({}, 1)),
+             two = hierarchy_via_random_walks(mesh, thorough({}, 2));
+  EXPECT_EQ(one.report().seeds, two.report().seeds);
+  EXPECT_GT(two.number_of_fragments(), one.number_of_fragments());
+  EXPECT_EQ(two.number_of_fragments(), two.report().fragments);
 }

@@ -183,7 +183,7 @@ void take_numbers(const Preset& preset, Method& method) {
   if (method.seeding != Seeding::coarse) method.seeds = preset.seeding.count;
 }
 
-/// Rand error beside people by `benchmark_princeton` with 1, 2, 3, 4 and 8 seedings: see the manual on what they agree on.
+/// Rand error beside people by `benchmark_princeton` with 1 to 8 seedings: see the manual on what they agree on.
 constexpr std::size_t seedings_of_thorough_segmentation = 4;
 
 /// How segments are found, as a user says it. What is not given is left to the library's own numbers.
@@ -245,7 +245,11 @@ inline Method method_of(const Choices& choices, bool are_seeds_segments) {
   method.sigma = choices.sigma.value_or(method.sigma);
   method.cap = choices.cap.value_or(method.cap);
   method.segments = choices.segments;
-  if (choices.is_thorough) method.seedings = seedings_of_thorough_segmentation;
+  // What several seedings agree on is told by a cost that is 1 where it is as well to merge as not to.
+  if (choices.is_thorough)
+    method.seedings = seedings_of_thorough_segmentation;
+  else if (method.merge_cost == Merge_cost::learned && !choices.is_coarse)
+    method.seedings = RW_segmentation::Automatic_segmentation().seedings;
   if (choices.automatic_seeds) {
     method.seeds = choices.automatic_seeds;
   } else if (choices.segments && method.seeding == Seeding::coarse) {

@@ -157,7 +157,7 @@ inline void define_command_line(CLI::App& app, Options& options) {
           ->group("Automatic segments");
   app.add_flag(
          "--thorough", options.is_thorough,
-         "Place seeds four times and merge by what comes of all of them: closer to what people do, in two to three\n"
+         "Place seeds four times and merge by what comes of all of them: closer to what people do, in 1.2 to 1.35\n"
          "times the time")
       ->group("Automatic segments");
   add_choice(app, "--seeding", options.seeding, seeding_names,

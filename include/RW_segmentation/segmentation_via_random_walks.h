@@ -15,6 +15,7 @@
 #include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/seeds/read_seeds.h>
+#include <RW_segmentation/internal/walk/further_seedings.h>
 #include <RW_segmentation/internal/walk/make_solver.h>
 #include <RW_segmentation/internal/walk/walk_fragments.h>
 #include <RW_segmentation/merge_segments.h>
@@ -80,58 +81,41 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
 
   std::vector<Dual_mesh::Index> seeds;
   Fragments fragments;
-  const auto walk_from_seeds = [&](Any_walk_solver analysed, const Progress& part) {
-    const Walk_network network = {shape.graph(), conductance, component};
-    return is_reduced ? walk_fragments_over_clusters(
-                            network, shape.edge_lengths(), seeds, policies.reduction,
-                            [&] { return make_solver(policies.solver); }, part)
-                      : walk_fragments(network, std::move(analysed), seeds, part);
-  };
-  const auto progress_of_seeding = [&](std::size_t k) {
-    const auto seedings = static_cast<double>(policies.seedings);
-    return progress.part(0.4, 0.9).part(static_cast<double>(k) / seedings, static_cast<double>(k + 1) / seedings);
-  };
+  std::optional<Common_refinement> refinement;
+  const auto new_solver = [&] { return make_solver(policies.solver); };
   const auto walk = [&] {
     seeds = seeds_by(policies.seeding, shape, difference, given, progress.part(0.3, 0.4));
     clock.note("seeds");
-    fragments = walk_from_seeds(std::move(solver), progress_of_seeding(0));
+    const Walk_network network = {shape.graph(), conductance, component};
+    const Progress part = progress.part(0.4, 0.8);
+    fragments = is_reduced ? walk_fragments_over_clusters(network, shape.edge_lengths(), seeds, policies.reduction,
+                                                          new_solver, part)
+                           : walk_fragments(network, std::move(solver), seeds, part);
     clock.note("walk");
+    if (policies.seedings == 1 || seeds.size() == given.size()) return;
+    refinement = refine_by_further_seedings(shape, network, {seeds, given.size(), fragments.of_face},
+                                            policies.seedings - 1, new_solver, progress.part(0.8, 0.9));
+    clock.note("other seedings");
   };
   std::optional<Merge_cost_by<decltype(policies.merge_cost), Mesh>> cost;
   at_the_same_time<ConcurrencyTag>([&] { cost.emplace(merge_cost_by(policies.merge_cost, shape)); }, walk);
   clock.note("thickness");
 
   report.seeds = seeds.size();
-  std::vector<std::vector<std::size_t>> fragment_of_face = {std::move(fragments.of_face)};  // of every seeding
-  for (std::size_t k = 1; k < policies.seedings && seeds.size() > given.size(); ++k) {
-    const Progress part = progress_of_seeding(k);
-    std::vector<Dual_mesh::Index> start = given;
-    start.push_back(seeds.back());
-    seeds = seeds_by(policies.seeding, shape, difference, start, part.part(0, 0.2));
-    auto another = make_solver(policies.solver);
-    if (!is_reduced) another.analyze(mesh.graph());
-    Fragments of_seeding = walk_from_seeds(std::move(another), part.part(0.2, 1));
-    fragments.island_faces += of_seeding.island_faces;
-    fragment_of_face.push_back(std::move(of_seeding.of_face));
-  }
-  if (policies.seedings > 1) clock.note("other seedings");
-
   report.components = component.count;
   report.clusters = fragments.clusters;
   report.degenerate_faces = shape.number_of_degenerate_faces();
   report.island_faces = fragments.island_faces;
   report.has_heavy_noise = &shape.points() != &mesh.points();
-  std::vector<Merge_tree> trees;
-  for (const std::vector<std::size_t>& of : fragment_of_face)
-    trees.push_back(merge_fragments(shape, of, *std::max_element(of.begin(), of.end()) + 1, difference, *cost,
-                                    progress.part(0.9, 0.95)));
   Merged_fragments merged;
-  if (trees.size() == 1) {
-    merged = {std::move(trees.front()), std::move(fragment_of_face.front()), {}};
+  if (refinement) {
+    merged.tree = merge_by_consensus(shape, *refinement, difference, *cost, progress.part(0.9, 1));
+    merged.fragment_of_face = std::move(refinement->of_face);
   } else {
-    Common_refinement refinement = common_refinement(shape.graph(), conductance, fragment_of_face);
-    merged.tree = merge_by_consensus(shape, refinement, trees, difference, *cost, progress.part(0.95, 1));
-    merged.fragment_of_face = std::move(refinement.of_face);
+    const std::size_t number_of_fragments = *std::max_element(fragments.of_face.begin(), fragments.of_face.end()) + 1;
+    merged.tree =
+        merge_fragments(shape, fragments.of_face, number_of_fragments, difference, *cost, progress.part(0.9, 1));
+    merged.fragment_of_face = std::move(fragments.of_face);
   }
   report.fragments = merged.tree.number_of_fragments();
   clock.note("merging");

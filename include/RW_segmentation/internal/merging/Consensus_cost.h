@@ -9,6 +9,7 @@
 #include <RW_segmentation/Region_boundary.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -103,17 +104,32 @@ class Consensus_cost {
   const Seeding_agreement& agreement_;
 };
 
-/// Merges the pieces of several seedings' common refinement to the end.
-/// \param trees what `merge_fragments()` made of each seeding by that cost
+/// Merges the pieces of several seedings' common refinement to the end, after the fragments of each seeding by that cost
+/// alone.
 /// \param difference in the order of the edges
 template <class Mesh, class MergeCost>
 Merge_tree merge_by_consensus(const Mesh& mesh, const Common_refinement& refinement,
-                              const std::vector<Merge_tree>& trees, const std::vector<double>& difference,
-                              const MergeCost& cost, const Progress& progress) {
+                              const std::vector<double>& difference, const MergeCost& cost, const Progress& progress) {
   using Consensus = Consensus_cost<MergeCost, Mesh>;
   constexpr double least_area = 1e-12;  // of a face, as a share of all: pieces without area have a weight, too
   const std::size_t pieces = refinement.fragments_of.size();
   auto of_cost = join_faces(refinement.of_face, pieces, cost, [&](Dual_mesh::Index f) { return cost.region(mesh, f); });
+  const auto boundaries = region_boundaries(mesh, refinement.of_face, difference, cost);
+
+  const std::size_t seedings = refinement.fragments_of.front().size();
+  const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(seedings + 1); };
+  std::vector<Merge_tree> trees;
+  for (std::size_t k = 0; k < seedings; ++k) {
+    std::vector<std::size_t> fragment_of;
+    fragment_of.reserve(pieces);
+    for (const std::vector<std::size_t>& fragments : refinement.fragments_of) fragment_of.push_back(fragments[k]);
+    const std::size_t fragments = *std::max_element(fragment_of.begin(), fragment_of.end()) + 1;
+    auto of_fragments = join_faces(fragment_of, fragments, cost, [&](Dual_mesh::Index i) { return of_cost[i]; });
+    trees.push_back(
+        Region_merging<MergeCost, Mesh>(std::move(of_fragments), join_boundaries(boundaries, fragment_of), cost)
+            .run(progress.part(share(k), share(k + 1))));
+  }
+
   std::vector<double> weight(pieces, 0);
   for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f)
     weight[refinement.of_face[f]] += least_area + (mesh.total_area() > 0 ? mesh.area(f) / mesh.total_area() : 0);
@@ -121,12 +137,13 @@ Merge_tree merge_by_consensus(const Mesh& mesh, const Common_refinement& refinem
   regions.reserve(pieces);
   for (std::size_t i = 0; i < pieces; ++i)
     regions.push_back({std::move(of_cost[i]), Seeding_agreement::region(refinement.fragments_of[i], weight[i])});
-
   const Seeding_agreement agreement(trees);
   const Consensus consensus(cost, agreement);
-  return Region_merging<Consensus, Mesh>(std::move(regions),
-                                         region_boundaries(mesh, refinement.of_face, difference, consensus), consensus)
-      .run(progress);
+  typename Region_merging<Consensus, Mesh>::Boundaries of_consensus;
+  of_consensus.reserve(boundaries.size());
+  for (const auto& [neighbours, common] : boundaries) of_consensus.push_back({neighbours, {common.length, common}});
+  return Region_merging<Consensus, Mesh>(std::move(regions), std::move(of_consensus), consensus)
+      .run(progress.part(share(seedings), 1));
 }
 
 }  // namespace RW_segmentation::internal

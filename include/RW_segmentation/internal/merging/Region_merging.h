@@ -122,6 +122,28 @@ auto region_boundaries(const Mesh& mesh, const std::vector<std::size_t>& region_
   return boundaries;
 }
 
+/// The boundaries between regions that are joined from others.
+/// \param boundaries between the others
+/// \param region_of the region that each of them goes to
+template <class Sums>
+std::vector<Boundary_of_regions<Sums>> join_boundaries(const std::vector<Boundary_of_regions<Sums>>& boundaries,
+                                                       const std::vector<std::size_t>& region_of) {
+  std::vector<std::pair<std::array<Dual_mesh::Index, 2>, std::size_t>> remaining;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const auto [i, j] = boundaries[b].regions;
+    const auto [low, high] = std::minmax(region_of[i], region_of[j]);
+    if (low != high)
+      remaining.push_back({{static_cast<Dual_mesh::Index>(low), static_cast<Dual_mesh::Index>(high)}, b});
+  }
+  std::sort(remaining.begin(), remaining.end());
+  std::vector<Boundary_of_regions<Sums>> joined;
+  for (const auto& [regions, b] : remaining) {
+    if (joined.empty() || joined.back().regions != regions) joined.push_back({regions, {}});
+    joined.back().common += boundaries[b].common;
+  }
+  return joined;
+}
+
 /// Merges neighbouring regions, cheapest first, until no two neighbours are left.
 ///
 /// Each merge visits the neighbours of the two regions and no others. With equal costs the pair that came first in the

@@ -65,10 +65,12 @@ struct Face_clusters {
   /// \param is_crossed by edge: whether clusters may reach over it
   /// \param steps how far a root keeps others off
   /// \param alone faces that are clusters by themselves, the first ones
+  /// \param order of all faces, in which roots are chosen; empty: that of their numbers
   /// Complexity: O(m log m) for m faces.
   Face_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
-                const std::vector<char>& is_crossed, std::size_t steps, const std::vector<Index>& alone) {
-    choose_roots(faces, is_crossed, steps, alone);
+                const std::vector<char>& is_crossed, std::size_t steps, const std::vector<Index>& alone,
+                const std::vector<Index>& order = {}) {
+    choose_roots(faces, is_crossed, steps, alone, order);
     flood(faces, face_conductances, is_crossed, alone.size());
     join_clusters(faces, face_conductances);
   }
@@ -77,12 +79,13 @@ struct Face_clusters {
   static constexpr Index none = std::numeric_limits<Index>::max();
 
   void choose_roots(const Dual_graph& faces, const std::vector<char>& is_crossed, std::size_t steps,
-                    const std::vector<Index>& alone) {
+                    const std::vector<Index>& alone, const std::vector<Index>& order) {
     root = alone;
     of_face.assign(faces.number_of_faces(), none);  // for now the last root that has reached the face
     for (Index c = 0; c < root.size(); ++c) of_face[root[c]] = c;
     std::vector<Index> ball;
-    for (Index face = 0; face < faces.number_of_faces(); ++face) {
+    for (Index i = 0; i < faces.number_of_faces(); ++i) {
+      const Index face = order.empty() ? i : order[i];
       if (of_face[face] != none) continue;
       const auto number = static_cast<Index>(root.size());
       root.push_back(face);
@@ -101,21 +104,27 @@ struct Face_clusters {
     }
   }
 
-  /// Gives each face to a cluster. The first ones do not grow.
+  /// Gives each face to a cluster. The first ones do not grow. Of the ways in as few steps, that of the least resistance
+  /// counts, which does not depend on the order of the faces.
   void flood(const Dual_graph& faces, const std::vector<double>& face_conductances, const std::vector<char>& is_crossed,
              std::size_t number_alone) {
     of_face.assign(faces.number_of_faces(), none);
     resistance.assign(faces.number_of_faces(), 0.);
-    std::vector<Index> reached = root;
+    std::vector<Index> reached = root, step(faces.number_of_faces(), 0);
     reached.reserve(faces.number_of_faces());
     for (std::size_t c = 0; c < root.size(); ++c) of_face[root[c]] = static_cast<Index>(c);
     for (std::size_t next = number_alone; next < reached.size(); ++next) {
       const Index face = reached[next];
       for (const auto& [neighbour, edge] : faces.neighbours(face)) {
-        if (!is_crossed[edge] || of_face[neighbour] != none) continue;
-        of_face[neighbour] = of_face[face];
-        resistance[neighbour] = resistance[face] + 1 / face_conductances[edge];
-        reached.push_back(neighbour);
+        if (!is_crossed[edge]) continue;
+        if (of_face[neighbour] == none) {
+          of_face[neighbour] = of_face[face];
+          step[neighbour] = step[face] + 1;
+          resistance[neighbour] = resistance[face] + 1 / face_conductances[edge];
+          reached.push_back(neighbour);
+        } else if (of_face[neighbour] == of_face[face] && step[neighbour] == step[face] + 1) {
+          resistance[neighbour] = std::min(resistance[neighbour], resistance[face] + 1 / face_conductances[edge]);
+        }
       }
     }
   }
