@@ -408,8 +408,7 @@ class Face_diffusion {
   static double relative_change(const std::vector<Eigen::Vector3d>& x, const Block& correction, const Block& change) {
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Vector vector = in_single_precision(x[i]);
-      vector += correction[i];
+      const Eigen::Vector3f vector = x[i].cast<float>() + correction[i].head<3>();
       sum += std::min(1.F, change[i].squaredNorm() / std::max(vector.squaredNorm(), 1e-30F));
     }
     return std::sqrt(sum / static_cast<double>(x.size()));
