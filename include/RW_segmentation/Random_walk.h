@@ -146,7 +146,7 @@ class Random_walk {
   template <class SegmentIdMap>
   std::size_t segment(SegmentIdMap segment_ids) {
     check_faces();
-    return write(with_threads([&] { return walk_.labels(); }), segment_ids);
+    return write(*with_threads([&] { return &walk_.labels(); }), segment_ids);
   }
 
   /// As `segment()`, but leaves faces that are cut off from the seeds of their label where the walk puts them.

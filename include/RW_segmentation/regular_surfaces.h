@@ -44,11 +44,11 @@ struct Regular_surfaces {
   std::vector<Surface_snap> snaps;         ///< for each group the surface of the lowest number with each other one
 };
 
-/// Makes nearly parallel normals and axes parallel and nearly perpendicular ones perpendicular, nearly coplanar planes one plane,
-/// nearly coaxial surfaces coaxial, and nearly equal radii and angles equal.
+/// Makes nearly parallel normals and axes parallel and nearly perpendicular ones perpendicular, nearly coplanar planes one
+/// plane, nearly coaxial surfaces coaxial, and nearly equal radii and angles equal.
 ///
-/// Numbers become one, the mean weighted by their errors, if all of a group are within the tolerance of each other and no other one
-/// is near: where a chain of small differences adds up to a large one, nothing is changed. So the result does not
+/// Numbers become one, the mean weighted by their errors, if all of a group are within the tolerance of each other and no
+/// other one is near: where a chain of small differences adds up to a large one, nothing is changed. So the result does not
 /// depend on the order of the surfaces, and doing it again changes nothing. The most that errors excuse is one degree, or
 /// a hundredth of a radius. Surfaces turn about their `point`. Residuals and errors remain those of the fits, and free
 /// forms what they are. Complexity: quadratic in the number of surfaces.

@@ -32,12 +32,11 @@ std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
 
 /// The plane, sphere, cylinder, cone or torus that each segment of a mesh lies on, whichever way it was segmented.
 ///
-/// The type of each surface is chosen by at most 500 vertices of the segment, see `fit_analytic_surface()`, and its numbers are
-/// fitted, in the sense of least squares, to all vertices but those that are far off beside the others. Where no surface
-/// fits all, one that holds 95 percent of the area is taken: a segmentation may have got a few faces wrong. Where
-/// all vertices lie on two circles round one axis, as in the chamfers of a CAD kernel, spheres pass through them as well as cylinders and
-/// cones; a sphere is returned then if it joins a neighbour smoothly, and the other one otherwise.
-///
+/// The type of each surface is chosen by at most 500 vertices of the segment, see `fit_analytic_surface()`, and its numbers
+/// are fitted, in the sense of least squares, to all vertices but those that are far off beside the others. Where no surface
+/// fits all, one that holds 95 percent of the area is taken: a segmentation may have got a few faces wrong. Where all
+/// vertices lie on two circles round one axis, as in the chamfers of a CAD kernel, spheres pass through them as well as
+/// cylinders and cones; a sphere is returned then if it joins a neighbour smoothly, and the other one otherwise.
 /// The standard errors (`Analytic_surface::errors`) are those of the least squares: they hold as far as the distances of
 /// vertices are independent of each other. Complexity: linear in the number of faces, and that of some fits for each segment.
 ///
