@@ -34,7 +34,8 @@ const char* name_of(Regularity regularity);
 /// A regularity of two surfaces.
 struct Surface_snap {
   Regularity regularity = Regularity::parallel;  ///< what they have in common now
-  std::size_t first = 0, second = 0;             ///< numbers of the surfaces
+  std::size_t first = 0;                         ///< the number of one of the surfaces
+  std::size_t second = 0;                        ///< that of the other one, which is larger
   double difference = 0;                         ///< that they had before, a length or an angle in radians
 };
 

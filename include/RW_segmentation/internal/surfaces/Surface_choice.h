@@ -81,7 +81,7 @@ inline bool are_smoothly_joined(const Analytic_surface& a, const Analytic_surfac
 inline std::optional<Analytic_surface> straight_alternative(const Surface_samples& samples, double tolerance) {
   const Surface_fit fit(samples, 2 * tolerance);
   for (const Surface_type type : {Surface_type::cylinder, Surface_type::cone})
-    if (const auto surface = fit.fit(type)) return surface;
+    if (auto surface = fit.fit(type)) return surface;
   return {};
 }
 
