@@ -566,7 +566,7 @@ TEST(SegmentSurfaces, AreFoundBesideAFewWrongFaces) {
     solids::Solid solid = solids::capsule(meshing);
     const solids::Solid right = solid;
     // A face of each hemisphere goes to the cylinder.
-    for (const std::size_t label : {1, 2}) *std::find(solid.label.begin(), solid.label.end(), label) = 0;
+    for (const std::size_t label : {1U, 2U}) *std::find(solid.label.begin(), solid.label.end(), label) = 0;
     const auto surfaces = surfaces_of(solid);
     EXPECT_EQ(surfaces[0].type, Surface_type::cylinder);
     EXPECT_NEAR(surfaces[0].radius, right.surfaces[0].radius, 1e-9);
