@@ -4,6 +4,7 @@
 
 #include "for_each_concurrency.h"
 
+#include <RW_segmentation/internal/definitions/Common_refinement.h>
 #include <RW_segmentation/internal/definitions/Consensus_cost.h>
 #include <RW_segmentation/internal/definitions/Graph_walk.h>
 #include <RW_segmentation/internal/definitions/Learned_cost.h>

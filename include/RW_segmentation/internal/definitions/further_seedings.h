@@ -80,14 +80,8 @@ inline std::vector<double> lengths_of_ways(const Dual_mesh& shape, const Face_cl
 inline std::vector<Dual_graph::Index> seed_clusters(const Face_clusters& clusters, const std::vector<double>& lengths,
                                                     std::vector<Dual_graph::Index> seeds, std::size_t count) {
   Distances_to_sources distance(clusters.graph, lengths);
-  for (const auto seed : seeds) distance.add_source(seed);
-  const auto out_of_reach = reach_all_components(distance);
-  seeds.insert(seeds.end(), out_of_reach.begin(), out_of_reach.end());
-  count = std::min(count, clusters.root.size());
-  while (seeds.size() < count) {
-    seeds.push_back(first_greatest(*distance));
-    distance.add_source(seeds.back());
-  }
+  reach_all_components_from(seeds, distance);
+  add_farthest_points(seeds, distance, std::min(count, clusters.root.size()), {});
   return seeds;
 }
 

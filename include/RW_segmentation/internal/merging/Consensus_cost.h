@@ -8,6 +8,7 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Region_boundary.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
+#include <RW_segmentation/internal/walk/Common_refinement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +17,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// Fragments of the same faces, made from several seedings.
-struct Common_refinement {
-  std::vector<std::size_t> of_face;                    ///< the piece of each face
-  std::vector<std::vector<std::size_t>> fragments_of;  ///< each piece, one of every seeding
-};
-
-/// The connected pieces of faces that lie in one fragment by every seeding. They are numbered in the order of their
-/// fragments, then of their first faces.
-/// \param fragment_of_face of every seeding, by face
-/// \param conductance by edge; pieces end where it is 0
-/// Complexity: O(n log n) for n pieces, and linear in the number of faces.
-Common_refinement common_refinement(const Dual_graph& graph, const std::vector<double>& conductance,
-                                    const std::vector<std::vector<std::size_t>>& fragment_of_face);
 
 /// How far several seedings agree that two regions are one segment.
 class Seeding_agreement {

@@ -5,8 +5,8 @@
 
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/internal/merging/Consensus_cost.h>
 #include <RW_segmentation/internal/walk/Any_walk_solver.h>
+#include <RW_segmentation/internal/walk/Common_refinement.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
 
 #include <cstddef>
