@@ -21,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -320,24 +321,15 @@ Polygon_soup read_elements(const Header& header, std::uint64_t number_of_vertice
 template <class Number>
 Number load_number(const char* bytes, bool is_swapped) {
   Number number;
-  std::memcpy(&number, bytes, sizeof(Number));
-  return is_swapped ? boost::endian::endian_reverse(number) : number;
-}
-
-template <>
-inline float load_number(const char* bytes, bool is_swapped) {
-  const auto bits = load_number<std::uint32_t>(bytes, is_swapped);
-  float number;
-  std::memcpy(&number, &bits, sizeof number);
-  return number;
-}
-
-template <>
-inline double load_number(const char* bytes, bool is_swapped) {
-  const auto bits = load_number<std::uint64_t>(bytes, is_swapped);
-  double number;
-  std::memcpy(&number, &bits, sizeof number);
-  return number;
+  if constexpr (std::is_floating_point_v<Number>) {
+    const auto bits =
+        load_number<std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>>(bytes, is_swapped);
+    std::memcpy(&number, &bits, sizeof number);
+    return number;
+  } else {
+    std::memcpy(&number, bytes, sizeof number);
+    return is_swapped ? boost::endian::endian_reverse(number) : number;
+  }
 }
 
 /// The bytes of an element without lists; nothing if it has some.
