@@ -3,6 +3,7 @@
 // Solids whose analytic faces are known: how well they are found, clean and under noise, beside CGAL's segmentation by
 // sharp edges, by growing planes and by shape diameters. Some parts of CGAL used here are under the GPL.
 
+#include "../test/designed_surfaces.h"
 #include "../test/solids.h"
 #include "measurement.h"
 #include "segmentation_measures.h"
@@ -62,18 +63,7 @@ struct Subject {
 };
 
 Subject subject_of(const solids::Solid& solid, const std::string& meshing) {
-  Subject subject = {solid.name + meshing, solid.points, solid.faces, solid.label};
-  for (const solids::Surface& surface : solid.surfaces) {
-    subject.surfaces.emplace_back();
-    Analytic_surface& design = subject.surfaces.back();
-    design.type = static_cast<Surface_type>(surface.type);
-    design.point = surface.point;
-    design.direction = surface.direction;
-    design.radius = surface.radius;
-    design.tube_radius = surface.tube_radius;
-    design.half_angle = surface.half_angle;
-  }
-  return subject;
+  return {solid.name + meshing, solid.points, solid.faces, solid.label, designed_surfaces(solid)};
 }
 
 std::vector<Subject> constructed_solids(double edge_length) {

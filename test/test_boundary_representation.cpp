@@ -6,6 +6,7 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
+#include "designed_surfaces.h"
 #include "meshes.h"
 #include "solids.h"
 
@@ -32,23 +33,6 @@ namespace {
 
 constexpr double pi = solids::half_turn;
 
-Analytic_surface surface_of(const solids::Surface& truth) {
-  Analytic_surface surface;
-  surface.type = static_cast<Surface_type>(truth.type);
-  surface.point = truth.point;
-  surface.direction = truth.direction;
-  surface.radius = truth.radius;
-  surface.tube_radius = truth.tube_radius;
-  surface.half_angle = truth.half_angle;
-  return surface;
-}
-
-std::vector<Analytic_surface> surfaces_of(const solids::Solid& solid) {
-  std::vector<Analytic_surface> surfaces;
-  for (const solids::Surface& s : solid.surfaces) surfaces.push_back(surface_of(s));
-  return surfaces;
-}
-
 Boundary_representation represented(const solids::Solid& solid, const std::vector<Analytic_surface>& surfaces,
                                     double scale = 1) {
   const auto mesh = meshes::surface_mesh({solid.points, solid.faces});
@@ -56,7 +40,7 @@ Boundary_representation represented(const solids::Solid& solid, const std::vecto
   return boundary_representation(mesh, ids, surfaces, scale);
 }
 
-Boundary_representation represented(const solids::Solid& solid) { return represented(solid, surfaces_of(solid)); }
+Boundary_representation represented(const solids::Solid& solid) { return represented(solid, designed_surfaces(solid)); }
 
 /// The segments that have a face of the type of their surface.
 std::set<std::size_t> segments_on_their_surfaces(const Boundary_representation& result,
@@ -130,7 +114,7 @@ TEST(Boundary_representation, HasAValidFaceOnEachSurfaceOfASolid) {
   for (const auto& meshing : {solids::even(0.25), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       SCOPED_TRACE(solid.name + (meshing.is_even ? ", even" : ", by a kernel"));
-      const auto surfaces = surfaces_of(solid);
+      const auto surfaces = designed_surfaces(solid);
       const Boundary_representation result = represented(solid, surfaces);
       EXPECT_EQ(result.defect(), "");
       EXPECT_EQ(result.shape.ShapeType(), TopAbs_SOLID);
@@ -183,7 +167,7 @@ TEST(Boundary_representation, CutsWhatClosesRoundItselfIntoFacesWithoutSeams) {
 
 TEST(Boundary_representation, FitsASurfaceToAFreeForm) {
   const solids::Solid solid = box_with_wave();
-  std::vector<Analytic_surface> surfaces = surfaces_of(solid);
+  std::vector<Analytic_surface> surfaces = designed_surfaces(solid);
   surfaces[1] = Analytic_surface();
   const Boundary_representation result = represented(solid, surfaces);
   EXPECT_EQ(result.defect(), "");
@@ -232,7 +216,7 @@ TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
   const solids::Solid solid = solids::stepped_shaft(solids::even(0.4));
   for (const Surface_type wrong : analytic_types) {
     SCOPED_TRACE(name_of(wrong));
-    std::vector<Analytic_surface> surfaces = surfaces_of(solid);
+    std::vector<Analytic_surface> surfaces = designed_surfaces(solid);
     surfaces[2].type = wrong;  // a cylinder
     surfaces[2].half_angle = 0.3;
     surfaces[2].tube_radius = 0.2;
@@ -244,7 +228,7 @@ TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
 
 TEST(Boundary_representation, IsScaled) {
   const solids::Solid solid = solids::flange(solids::by_kernel());
-  const Boundary_representation one = represented(solid), inches = represented(solid, surfaces_of(solid), 25.4);
+  const Boundary_representation one = represented(solid), inches = represented(solid, designed_surfaces(solid), 25.4);
   EXPECT_EQ(inches.defect(), "");
   EXPECT_EQ(inches.faces.size(), one.faces.size());
   expect_relative(inches.report.volume, 25.4 * 25.4 * 25.4 * one.report.volume, 1e-6);
@@ -267,7 +251,7 @@ TEST(Boundary_representation, SaysWhatIsWrongWithItsArguments) {
   const solids::Solid solid = solids::box(solids::by_kernel());
   EXPECT_THROW(represented(solid, std::vector<Analytic_surface>(5)), std::invalid_argument);
   for (const double scale : {0., -1., std::numeric_limits<double>::infinity(), std::nan("")})
-    EXPECT_THROW(represented(solid, surfaces_of(solid), scale), std::invalid_argument);
+    EXPECT_THROW(represented(solid, designed_surfaces(solid), scale), std::invalid_argument);
   EXPECT_THROW(represented(solids::Solid()), std::invalid_argument);
 }
 
@@ -276,13 +260,13 @@ TEST(Boundary_representation, CanBeCancelled) {
   const auto mesh = meshes::surface_mesh({solid.points, solid.faces});
   const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
   std::vector<double> fractions;
-  boundary_representation(mesh, ids, surfaces_of(solid), 1, CGAL::parameters::callback([&](double fraction) {
+  boundary_representation(mesh, ids, designed_surfaces(solid), 1, CGAL::parameters::callback([&](double fraction) {
                             fractions.push_back(fraction);
                             return true;
                           }));
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_EQ(fractions.back(), 1);
-  EXPECT_THROW(boundary_representation(mesh, ids, surfaces_of(solid), 1,
+  EXPECT_THROW(boundary_representation(mesh, ids, designed_surfaces(solid), 1,
                                        CGAL::parameters::callback([](double) { return false; })),
                Cancelled);
 }
