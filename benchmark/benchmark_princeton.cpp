@@ -248,9 +248,6 @@ Automatic_segmentation with_seedings(std::size_t seedings, Automatic_segmentatio
   return policy;
 }
 
-/// The choice that `segment_mesh --thorough` makes.
-Automatic_segmentation thorough(const Automatic_segmentation& policy) { return with_seedings(4, policy); }
-
 Automatic_segmentation with_reduced_walk() {
   Automatic_segmentation policy;
   policy.reduction.largest_direct = 0;
@@ -305,7 +302,9 @@ Outcome_of_method automatically(const Subject& subject, const Automatic_segmenta
   const auto without_category = [&](const Dual_mesh& mesh) {
     return Learned_cost(mesh, internal::thickness_of_faces(mesh, policy.merge_cost.thickness, {}), trees);
   };
-  return by_walks(subject, policy.with_merge_cost(without_category), are_levels_offered);
+  auto of_fold = policy.with_merge_cost(without_category);
+  of_fold.seedings = policy.seedings;
+  return by_walks(subject, of_fold, are_levels_offered);
 }
 
 /// \param folds null: the library's own trees
@@ -316,10 +315,11 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
        [=](const Subject& s) {
          return automatically(s, Automatic_segmentation(typical_number_of_segments(s)), folds);
        }},
-      {"thorough", [=](const Subject& s) { return automatically(s, thorough(Automatic_segmentation()), folds); }},
-      {"thorough_count",
+      {"four_seedings",
+       [=](const Subject& s) { return automatically(s, with_seedings(4, Automatic_segmentation()), folds); }},
+      {"four_seedings_count",
        [=](const Subject& s) {
-         return automatically(s, thorough(Automatic_segmentation(typical_number_of_segments(s))), folds);
+         return automatically(s, with_seedings(4, Automatic_segmentation(typical_number_of_segments(s))), folds);
        }},
       {"one_seeding",
        [=](const Subject& s) { return automatically(s, with_seedings(1, Automatic_segmentation()), folds); }},
@@ -593,8 +593,9 @@ int main(int argc, char* argv[]) {
     if (!folds.empty()) {
       if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
       trees_of_folds.emplace(trees);
-      chosen = {"automatic",         "size_aware", "count",          "size_aware_count", "levels",
-                "size_aware_levels", "thorough",   "thorough_count", "one_seeding",      "one_seeding_count"};
+      chosen = {"automatic",   "size_aware",        "count",         "size_aware_count",
+                "levels",      "size_aware_levels", "four_seedings", "four_seedings_count",
+                "one_seeding", "one_seeding_count"};
     }
     const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 

@@ -143,6 +143,7 @@ void measure(const std::string& name, const Arguments& arguments, std::vector<Re
   const auto segment = [&](std::size_t largest_direct) {
     Automatic_segmentation policy;
     policy.reduction.largest_direct = largest_direct;
+    policy.seedings = 1;  // as tiles have
     const Stopwatch watch;
     segmentation_via_random_walks<CGAL::Sequential_tag>(mesh, labels, policy);
     return watch.milliseconds();

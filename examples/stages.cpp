@@ -55,7 +55,9 @@ int main(int argc, char** argv) {
     //! [stages]
 
     auto in_one_call = mesh.add_property_map<Face, std::size_t>("f:in_one_call").first;
-    RW::segmentation_via_random_walks(mesh, in_one_call);
+    RW::Automatic_segmentation policies;
+    policies.seedings = 1;
+    RW::segmentation_via_random_walks(mesh, in_one_call, policies);
     std::size_t others = 0;
     for (const Face face : mesh.faces()) others += segment[face] != in_one_call[face];
     std::cout << others << " faces have another label than by the one call\n";

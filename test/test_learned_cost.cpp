@@ -20,6 +20,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -44,7 +45,13 @@ std::vector<Merge_tree::Merge> merges_of(const Mesh& mesh, const Policies& polic
   return hierarchy_via_random_walks(mesh, policies).merges();
 }
 
-auto with_size_aware_cost() { return Automatic_segmentation().with_merge_cost(Size_aware_cost_policy()); }
+/// The automatic segmentation but for its merge cost.
+template <class MergeCost>
+auto automatic_with_cost(MergeCost cost) {
+  auto policies = Automatic_segmentation().with_merge_cost(std::move(cost));
+  policies.seedings = Automatic_segmentation().seedings;
+  return policies;
+}
 
 void expect_same_merges(const std::vector<Merge_tree::Merge>& a, const std::vector<Merge_tree::Merge>& b) {
   ASSERT_EQ(a.size(), b.size());
@@ -228,7 +235,7 @@ TEST(LearnedCost, IsThatOfItsFormula) {
 TEST(LearnedCost, WithoutThicknessIsTheSizeAwareCost) {
   auto learned = Automatic_segmentation();
   learned.merge_cost.thickness.samples = 0;
-  auto size_aware = with_size_aware_cost();
+  auto size_aware = automatic_with_cost(Size_aware_cost_policy());
   size_aware.merge_cost.thickness.samples = 0;
   const Mesh mesh = meshes::surface_mesh(bumpy_dumbbell());
   expect_same_merges(merges_of(mesh, learned), merges_of(mesh, size_aware));
@@ -238,7 +245,8 @@ TEST(LearnedCost, OfOpenAndFlatSurfacesIsTheSizeAwareCost) {
   for (const meshes::Shape& shape :
        {meshes::plane(20), meshes::with_noise(meshes::plane(30), 0.002), meshes::folded_strip(-1, 12)}) {
     const Mesh mesh = meshes::surface_mesh(shape);
-    expect_same_merges(merges_of(mesh, Automatic_segmentation()), merges_of(mesh, with_size_aware_cost()));
+    expect_same_merges(merges_of(mesh, Automatic_segmentation()),
+                       merges_of(mesh, automatic_with_cost(Size_aware_cost_policy())));
   }
 }
 
@@ -291,7 +299,7 @@ TEST(LearnedCost, TakesAStoredThicknessInTheMeshsUnit) {
         [&](Mesh::Face_index f) -> double& { return thickness[f]; });
     local_thickness(shape, map);
     const auto merges = merges_of(mesh, Automatic_segmentation());
-    const auto stored = merges_of(mesh, Automatic_segmentation().with_merge_cost(Learned_cost(shape, map)));
+    const auto stored = merges_of(mesh, automatic_with_cost(Learned_cost(shape, map)));
     ASSERT_EQ(merges.size(), stored.size());
     for (std::size_t i = 0; i < merges.size(); ++i) EXPECT_NEAR(merges[i].cost, stored[i].cost, 1e-9);
   }

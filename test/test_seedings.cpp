@@ -28,7 +28,7 @@ using Mesh = meshes::Surface_mesh;
 using Index = Dual_mesh::Index;
 using Labels = std::vector<std::size_t>;
 
-Automatic_segmentation thorough(Automatic_segmentation policies = Automatic_segmentation(), std::size_t seedings = 4) {
+Automatic_segmentation with_seedings(std::size_t seedings, Automatic_segmentation policies = Automatic_segmentation()) {
   policies.seedings = seedings;
   return policies;
 }
@@ -124,19 +124,27 @@ TEST(CommonRefinement, HasConnectedPiecesInOneFragmentOfEverySeeding) {
   }
 }
 
-TEST(Seedings, OneIsWhatThereIsWithoutThem) {
-  const Mesh mesh = meshes::surface_mesh(dumbbell());
-  EXPECT_EQ(labels_of(mesh, thorough({}, 1)), labels_of(mesh, Automatic_segmentation()));
+TEST(Seedings, AreTwoUnlessTheirPoliciesAreOthers) {
+  const Mesh mesh = meshes::surface_mesh(meshes::with_noise(dumbbell(), 0.003));
+  EXPECT_EQ(labels_of(mesh, with_seedings(2)), labels_of(mesh, Automatic_segmentation()));
+  const auto with_other_stop = Automatic_segmentation().with_stop(Segment_count_stop(4));
+  EXPECT_EQ(labels_of(mesh, with_other_stop), labels_of(mesh, Automatic_segmentation(4)));
+  // Further seeds would not be placed by a seeding, and another cost may mean anything where several agree.
+  const auto with_other_cost = Automatic_segmentation().with_merge_cost(Size_aware_cost_policy());
+  EXPECT_EQ(hierarchy_via_random_walks(mesh, with_other_cost).number_of_fragments(), with_other_cost.seeding.count);
+  const auto with_other_seeding =
+      Automatic_segmentation().with_seeding(Feature_sensitive_seeding<Farthest_point_sampling>{12, {}});
+  EXPECT_EQ(hierarchy_via_random_walks(mesh, with_other_seeding).number_of_fragments(), 12u);
 }
 
 TEST(Seedings, NoneAreRefused) {
   const Mesh mesh = meshes::surface_mesh(meshes::cube(3));
-  EXPECT_THROW(hierarchy_via_random_walks(mesh, thorough({}, 0)), std::invalid_argument);
+  EXPECT_THROW(hierarchy_via_random_walks(mesh, with_seedings(0)), std::invalid_argument);
 }
 
 TEST(Seedings, PartADumbbellAtItsNeck) {
   const Mesh mesh = meshes::surface_mesh(dumbbell());
-  const Labels labels = labels_of(mesh, thorough(Automatic_segmentation(2)));
+  const Labels labels = labels_of(mesh, with_seedings(4, Automatic_segmentation(2)));
   std::size_t f = 0, wrong = 0;
   for (const auto face : faces(mesh)) {
     const double z = mesh.point(target(halfedge(face, mesh), mesh)).z();
@@ -150,7 +158,7 @@ TEST(Seedings, PartADumbbellAtItsNeck) {
 TEST(Seedings, GiveConnectedSegmentsAtEveryLevel) {
   const Mesh mesh = meshes::surface_mesh(meshes::with_noise(dumbbell(), 0.003));
   const Dual_mesh_of dual(mesh);
-  const auto hierarchy = hierarchy_via_random_walks(mesh, thorough());
+  const auto hierarchy = hierarchy_via_random_walks(mesh, with_seedings(4));
   for (const std::size_t segments :
        {std::size_t(2), std::size_t(5), std::size_t(20), hierarchy.number_of_fragments()}) {
     Face_labels<Mesh> ids(mesh);
@@ -163,8 +171,8 @@ TEST(Seedings, GiveConnectedSegmentsAtEveryLevel) {
 TEST(Seedings, DoNotDependOnTheOrderOfTheFaces) {
   const meshes::Shape shape = meshes::with_noise(dumbbell(), 0.003);
   const auto order = meshes::random_order(shape.faces.size());
-  const Labels labels = labels_of(meshes::surface_mesh(shape), thorough());
-  const Labels permuted = labels_of(meshes::surface_mesh(meshes::with_faces_in_order(shape, order)), thorough());
+  const Labels labels = labels_of(meshes::surface_mesh(shape), with_seedings(4));
+  const Labels permuted = labels_of(meshes::surface_mesh(meshes::with_faces_in_order(shape, order)), with_seedings(4));
   Labels expected;
   for (const std::size_t face : order) expected.push_back(labels[face]);
   EXPECT_EQ(in_order(permuted), in_order(expected));
@@ -173,8 +181,8 @@ TEST(Seedings, DoNotDependOnTheOrderOfTheFaces) {
 TEST(Seedings, DoNotDependOnThreads) {
   const Mesh mesh = meshes::surface_mesh(dumbbell());
   Face_labels<Mesh> sequential(mesh);
-  segmentation_via_random_walks<CGAL::Sequential_tag>(mesh, sequential.map(), thorough());
-  EXPECT_EQ(labels_of(mesh, thorough()), sequential.values());
+  segmentation_via_random_walks<CGAL::Sequential_tag>(mesh, sequential.map(), with_seedings(4));
+  EXPECT_EQ(labels_of(mesh, with_seedings(4)), sequential.values());
 }
 
 TEST(Seedings, CrossNoWallAndJoinNoComponents) {
@@ -185,7 +193,7 @@ TEST(Seedings, CrossNoWallAndJoinNoComponents) {
     const auto h = halfedge(e, mesh);
     return is_above(face(h, mesh)) != is_above(face(opposite(h, mesh), mesh));
   });
-  for (const Automatic_segmentation& policies : {thorough(), thorough(Automatic_segmentation(3))}) {
+  for (const Automatic_segmentation& policies : {with_seedings(4), with_seedings(4, Automatic_segmentation(3))}) {
     Face_labels<Mesh> ids(mesh);
     segmentation_via_random_walks(mesh, ids.map(), policies, CGAL::parameters::edge_is_constrained_map(walls));
     std::set<std::size_t> above, below, ball;
@@ -208,9 +216,9 @@ TEST(Seedings, TakeEveryMeshThatOneSeedingTakes) {
   for (const meshes::Shape& shape : {folded, point, meshes::cube_of_quads(), meshes::cube(1), meshes::plane(12),
                                      meshes::folded_strip(-1, 12), meshes::tube(3, 30, 30)}) {
     const Mesh mesh = meshes::surface_mesh(shape);
-    auto without_thickness = thorough();
+    auto without_thickness = with_seedings(4);
     without_thickness.merge_cost.thickness.samples = 0;
-    for (const Automatic_segmentation& policies : {thorough(), without_thickness}) {
+    for (const Automatic_segmentation& policies : {with_seedings(4), without_thickness}) {
       const auto hierarchy = hierarchy_via_random_walks(mesh, policies);
       for (const auto& merge : hierarchy.merges()) EXPECT_GE(merge.cost, 0);
     }
@@ -220,7 +228,7 @@ TEST(Seedings, TakeEveryMeshThatOneSeedingTakes) {
 TEST(Seedings, KeepTheSeedsThatAreGiven) {
   const Mesh mesh = meshes::surface_mesh(dumbbell());
   const std::vector<Mesh::Face_index> given = {Mesh::Face_index(0), Mesh::Face_index(7)};
-  const auto hierarchy = hierarchy_via_random_walks(mesh, thorough(), given);
+  const auto hierarchy = hierarchy_via_random_walks(mesh, with_seedings(4), given);
   Face_labels<Mesh> ids(mesh);
   hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), ids.map());
   EXPECT_NE(get(ids.map(), given[0]), get(ids.map(), given[1]));
@@ -251,9 +259,33 @@ TEST(Seedings, TakePoliciesOfAnyType) {
 TEST(Seedings, GoByTheFirstOneForWhatNoOtherKnows) {
   // The second one begins at the last seed of the first one, and so parts the mesh elsewhere, but not across its creases.
   const Mesh mesh = meshes::surface_mesh(meshes::with_noise(dumbbell(), 0.003));
-  const auto one = hierarchy_via_random_walks(mesh, thorough({}, 1)),
-             two = hierarchy_via_random_walks(mesh, thorough({}, 2));
+  const auto one = hierarchy_via_random_walks(mesh, with_seedings(1)),
+             two = hierarchy_via_random_walks(mesh, with_seedings(2));
   EXPECT_EQ(one.report().seeds, two.report().seeds);
   EXPECT_GT(two.number_of_fragments(), one.number_of_fragments());
   EXPECT_EQ(two.number_of_fragments(), two.report().fragments);
+}
+
+TEST(Seedings, LeaveNoSmallPieceOfAFragment) {
+  // Two beams at a right angle, with a crease along which the fragments of all seedings end.
+  const Mesh mesh = meshes::surface_mesh(meshes::l_shape(16));
+  const auto finest = [&](std::size_t seedings) {
+    const auto hierarchy = hierarchy_via_random_walks(mesh, with_seedings(seedings));
+    Face_labels<Mesh> ids(mesh);
+    hierarchy.segments(Segment_count_stop(hierarchy.number_of_fragments()), ids.map());
+    return ids.values();
+  };
+  const Dual_mesh_of dual(mesh);
+  const Labels fragments = finest(1), pieces = finest(4);
+  std::vector<double> area_of_fragment(number_of_labels(fragments)), area_of_piece(number_of_labels(pieces));
+  std::map<std::size_t, std::size_t> fragment_of;
+  for (Index f = 0; f < dual.number_of_faces(); ++f) {
+    area_of_fragment[fragments[f]] += dual.area(f);
+    area_of_piece[pieces[f]] += dual.area(f);
+    fragment_of[pieces[f]] = fragments[f];
+  }
+  ASSERT_GT(area_of_piece.size(), area_of_fragment.size());
+  const double least = 0.1 * dual.total_area() / static_cast<double>(area_of_fragment.size());
+  for (const auto& [piece, fragment] : fragment_of)
+    EXPECT_TRUE(area_of_piece[piece] >= least || area_of_piece[piece] >= area_of_fragment[fragment] * (1 - 1e-9));
 }

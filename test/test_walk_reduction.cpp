@@ -191,10 +191,12 @@ TEST(SettleBand, FragmentsAreUnionsOfClustersWithoutABandAndThoseOfTheFacesWithO
 }
 
 TEST(WalkReduction, FindsTheSegmentsOfTheDirectWalk) {
-  for (const auto& shape :
-       {meshes::two_spheres_with_neck(2.4, 0.3, 96), meshes::two_spheres_with_neck(2.0001, 0.2, 64)}) {
+  // A neck between two balls is a segment of its own: it might go with either of them.
+  for (const auto& [shape, segments] : {std::pair(meshes::two_spheres_with_neck(2.4, 0.3, 96), std::size_t(3)),
+                                        std::pair(meshes::two_spheres_with_neck(2.0001, 0.2, 64), std::size_t(2))}) {
     const auto mesh = meshes::surface_mesh(shape);
-    const Result direct = segmented(mesh, Automatic_segmentation(2)), by_clusters = segmented(mesh, reduced(2));
+    const Result direct = segmented(mesh, Automatic_segmentation(segments)),
+                 by_clusters = segmented(mesh, reduced(segments));
     EXPECT_EQ(direct.report.clusters, 0u);
     EXPECT_GT(by_clusters.report.clusters, by_clusters.report.fragments);
     EXPECT_LT(by_clusters.report.clusters, num_faces(mesh) / 3);

@@ -183,13 +183,18 @@ void take_numbers(const Preset& preset, Method& method) {
   if (method.seeding != Seeding::coarse) method.seeds = preset.seeding.count;
 }
 
-/// Rand error beside people by `benchmark_princeton` with 1 to 8 seedings: see the manual on what they agree on.
-constexpr std::size_t seedings_of_thorough_segmentation = 4;
+/// How often seeds are placed. What several seedings agree on is told by a cost that is 1 where it is as well to merge as not
+/// to, and all but the first are far apart.
+inline std::size_t usual_seedings(Seeding seeding, Merge_cost merge_cost) {
+  return merge_cost == Merge_cost::learned && seeding == Seeding::farthest
+             ? RW_segmentation::Automatic_segmentation().seedings
+             : 1;
+}
 
 /// How segments are found, as a user says it. What is not given is left to the library's own numbers.
 struct Choices {
-  bool is_coarse = false, is_paper = false, is_thorough = false;
-  std::optional<std::size_t> segments, automatic_seeds;
+  bool is_coarse = false, is_paper = false;
+  std::optional<std::size_t> segments, automatic_seeds, seedings;
   std::optional<Difference> difference;
   std::optional<Seeding> seeding;
   std::optional<Merge_cost> merge_cost;
@@ -245,11 +250,7 @@ inline Method method_of(const Choices& choices, bool are_seeds_segments) {
   method.sigma = choices.sigma.value_or(method.sigma);
   method.cap = choices.cap.value_or(method.cap);
   method.segments = choices.segments;
-  // What several seedings agree on is told by a cost that is 1 where it is as well to merge as not to.
-  if (choices.is_thorough)
-    method.seedings = seedings_of_thorough_segmentation;
-  else if (method.merge_cost == Merge_cost::learned && !choices.is_coarse)
-    method.seedings = RW_segmentation::Automatic_segmentation().seedings;
+  method.seedings = choices.seedings.value_or(usual_seedings(method.seeding, method.merge_cost));
   if (choices.automatic_seeds) {
     method.seeds = choices.automatic_seeds;
   } else if (choices.segments && method.seeding == Seeding::coarse) {

@@ -123,7 +123,7 @@ inline void check_method(const Options& options) {
     refuse_beside_surfaces(options.difference.has_value(), "--difference");
     refuse_beside_surfaces(options.seeding.has_value(), "--seeding");
     refuse_beside_surfaces(options.merge_cost.has_value(), "--merge-cost");
-    refuse_beside_surfaces(options.is_thorough, "--thorough");
+    refuse_beside_surfaces(options.seedings.has_value(), "--seedings");
     refuse_beside_surfaces(options.solver.has_value(), "--solver");
     refuse_beside_surfaces(options.smoothing.has_value(), "--smoothing");
     refuse_beside_surfaces(options.convex_weight.has_value(), "--convex-weight");
@@ -146,9 +146,9 @@ inline void check_method(const Options& options) {
          "--coarse merges nothing: give --seeding coarse in its place");
   refuse(options.merge_cost && !options.merges(), "--merge-cost",
          "nothing is merged: give --segments or --seeds, too, or no seeds");
-  refuse(options.is_thorough && options.is_coarse, "--thorough",
+  refuse(options.seedings && options.is_coarse, "--seedings",
          "--coarse merges nothing: give --seeding coarse in its place");
-  refuse(options.is_thorough && !options.merges(), "--thorough",
+  refuse(options.seedings && !options.merges(), "--seedings",
          "nothing is merged: give --segments or --seeds, too, or no seeds");
 }
 
@@ -218,7 +218,7 @@ inline void check_tiles(const Options& options) {
   refuse(options.is_paper, "--paper", reason);
   refuse(options.seeding.has_value(), "--seeding", reason);
   refuse(options.merge_cost.has_value(), "--merge-cost", reason);
-  refuse(options.is_thorough, "--thorough", reason);
+  refuse(options.seedings.has_value(), "--seedings", reason);
   refuse(options.difference.has_value(), "--difference", reason);
   refuse(options.convex_weight.has_value(), "--convex-weight", reason);
   refuse(options.measure.has_value(), "--measure", reason);

@@ -155,10 +155,10 @@ inline void define_command_line(CLI::App& app, Options& options) {
                    "What the paper uses instead of what agrees best with people: --difference dihedral --smoothing 0\n"
                    "--seeding particles --merge-cost boundary, and 60 seeds")
           ->group("Automatic segments");
-  app.add_flag(
-         "--thorough", options.is_thorough,
-         "Place seeds four times and merge by what comes of all of them: closer to what people do, in 1.2 to 1.35\n"
-         "times the time")
+  add_number(app, "--seedings", options.seedings, counts,
+             "How many times seeds are placed, to merge by what all agree on (2; 1 with another --seeding or\n"
+             "--merge-cost)")
+      ->option_text("N")
       ->group("Automatic segments");
   add_choice(app, "--seeding", options.seeding, seeding_names,
              "Where automatic seeds are placed: far apart (default), as evenly as particles that repel each other,\n"

@@ -119,7 +119,6 @@ inline Json policies_for_page(const Options& options) {
   const Method method = method_of(options);
   Json policies = {{"difference", name_of(difference_names, method.difference)},
                    {"seeding", name_of(seeding_names, method.seeding)},
-                   {"seedings", method.seedings > 1 ? "several" : "once"},
                    {"mergeCost", name_of(merge_cost_names, method.merge_cost)}};
   if (options.radius) policies["radius"] = *options.radius;
   return policies;

@@ -50,7 +50,7 @@
 
 namespace RW_segmentation {
 
-/// What a segmentation of tiles is made with; as in `Automatic_segmentation`.
+/// What a segmentation of tiles is made with; as in `Automatic_segmentation` with one seeding.
 struct Tiled_segmentation {
   Normal_smoothing smoothing;    ///< of the shape
   std::size_t seeds = 40;        ///< of the whole mesh, and one more for each further connected component

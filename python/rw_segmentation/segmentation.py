@@ -40,6 +40,8 @@ class Policy:
         Where automatic seeds are placed.
     number_of_seeds : int, optional
         How many; 40 by default ("paper": 60), or twice the number of segments if that is more.
+    seedings : int, optional
+        How many times they are placed, to merge by what all agree on; 2 by default, 1 with another seeding or merge cost.
     merge_cost : {"learned", "size", "boundary"}, optional
         Which fragments are merged first: by what is learned from people (the default), by size, concavity and thickness
         alone, or by the concavity of boundaries as in the paper (the default of "paper").
@@ -57,14 +59,12 @@ class Policy:
         The difference that divides the conductance by e; 1 is an average edge.
     cap : float, optional
         The largest difference / sigma that counts.
-    thorough : bool
-        Whether seeds are placed four times, and fragments are merged by what comes of all of them: closer to what people do,
-        in 1.2 to 1.35 times the time.
     """
 
     base: Literal["automatic", "paper", "coarse", "coarse_paper"] = "automatic"
     seeding: Literal["farthest", "particles", "coarse"] | None = None
     number_of_seeds: int | None = None
+    seedings: int | None = None
     merge_cost: Literal["learned", "size", "boundary"] | None = None
     solver: Literal["star-mesh", "eigen"] | None = None
     smoothing: float | None = None
@@ -73,7 +73,6 @@ class Policy:
     radius: float | None = None
     sigma: float | None = None
     cap: float | None = None
-    thorough: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a base that there is not."""
@@ -82,14 +81,16 @@ class Policy:
             raise ValueError(f"policy {self.base!r} is none of {', '.join(bases)}, surfaces")
         if self.number_of_seeds is not None:
             integer_of(self.number_of_seeds, "number_of_seeds", 1)
+        if self.seedings is not None:
+            integer_of(self.seedings, "seedings", 1)
 
     def choices(self, segments: int | None = None, difference: str | None = None) -> _core.Choices:
         """Make what the compiled module takes."""
         choices = _core.Choices()
         choices.is_paper = self.base in ("paper", "coarse_paper")
         choices.is_coarse = self.base in ("coarse", "coarse_paper")
-        choices.is_thorough = self.thorough
         choices.seeds = self.number_of_seeds
+        choices.seedings = self.seedings
         choices.segments = None if segments is None else integer_of(segments, "the number of segments", 0)
         choices.difference = difference
         for name in (

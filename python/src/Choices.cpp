@@ -41,8 +41,8 @@ void check(const Choices& choices) {
     throw std::invalid_argument("seeding: the coarse policies place their seeds by themselves, leave it out");
   if (choices.is_coarse && choices.merge_cost)
     throw std::invalid_argument("merge_cost: the coarse policies merge nothing, leave it out");
-  if (choices.is_coarse && choices.is_thorough)
-    throw std::invalid_argument("thorough: the coarse policies merge nothing, leave it out");
+  if (choices.is_coarse && choices.seedings)
+    throw std::invalid_argument("seedings: the coarse policies merge nothing, leave it out");
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given) {
   segment_mesh::Choices said;
   said.is_coarse = choices.is_coarse;
   said.is_paper = choices.is_paper;
-  said.is_thorough = choices.is_thorough;
+  said.seedings = choices.seedings;
   said.segments = choices.segments;
   said.automatic_seeds = choices.seeds;
   said.difference = chosen(difference_names, choices.difference, "difference");
@@ -103,7 +103,7 @@ void define_choices(nb::module_& m) {
       .def(nb::init<>())
       .def_rw("is_paper", &Choices::is_paper)
       .def_rw("is_coarse", &Choices::is_coarse)
-      .def_rw("is_thorough", &Choices::is_thorough)
+      .def_rw("seedings", &Choices::seedings, nb::arg().none())
       .def_rw("difference", &Choices::difference, nb::arg().none())
       .def_rw("seeding", &Choices::seeding, nb::arg().none())
       .def_rw("merge_cost", &Choices::merge_cost, nb::arg().none())

@@ -16,10 +16,10 @@ namespace rw_python {
 
 /// How segments are found, as the user says it. What is not given is left to the library's own numbers.
 struct Choices {
-  bool is_paper = false, is_coarse = false, is_thorough = false;
+  bool is_paper = false, is_coarse = false;
   std::optional<std::string> difference, seeding, merge_cost, solver, measure;
   std::optional<double> smoothing, convex_weight, radius, sigma, cap;
-  std::optional<std::size_t> seeds, segments;
+  std::optional<std::size_t> seeds, seedings, segments;
 };
 
 /// What the choices stand for, as the tool segment_mesh understands its options.

@@ -51,7 +51,7 @@ MODES: dict[str, tuple[list[str], Callable[[Mesh], NDArray[np.int64]]]] = {
     "coarse seeding": (["--seeding", "coarse"], lambda m: rw.segment(*m, policy=rw.Policy(seeding="coarse"))),
     "size cost": (["--merge-cost", "size"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="size"))),
     "boundary cost": (["--merge-cost", "boundary"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="boundary"))),
-    "thorough": (["--thorough"], lambda m: rw.segment(*m, policy=rw.Policy(thorough=True))),
+    "seedings": (["--seedings", "3"], lambda m: rw.segment(*m, policy=rw.Policy(seedings=3))),
     "Eigen": (["--solver", "eigen"], lambda m: rw.segment(*m, policy=rw.Policy(solver="eigen"))),
     "numbers": (
         ["--sigma", "0.5", "--cap", "10", "--smoothing", "0.02", "--convex-weight", "0.1", "--seeds", "30"],

@@ -13,9 +13,9 @@ interface Level {
 }
 
 /** The same for methods and walls that give the same hierarchy. */
-function nameOf({ kind, difference, radius, seeding, seedings, mergeCost }: AutomaticMethod, walls: Walls): string {
+function nameOf({ kind, difference, radius, seeding, mergeCost }: AutomaticMethod, walls: Walls): string {
   const ofCurvatures = difference === 'curvature' ? radius : null;
-  const policies = kind === 'engineering' ? null : [difference, ofCurvatures, seeding, seedings, mergeCost];
+  const policies = kind === 'engineering' ? null : [difference, ofCurvatures, seeding, mergeCost];
   return JSON.stringify([kind, policies, walls]);
 }
 

@@ -59,7 +59,6 @@ function policies(automatic: AutomaticSegmentation): void {
   const lists: [keyof Policies, HTMLSelectElement][] = [
     ['difference', byId<HTMLSelectElement>('difference')],
     ['seeding', byId<HTMLSelectElement>('seeding')],
-    ['seedings', byId<HTMLSelectElement>('seedings')],
     ['mergeCost', byId<HTMLSelectElement>('merge-cost')],
   ];
   for (const [policy, list] of lists)

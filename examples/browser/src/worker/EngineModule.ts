@@ -82,8 +82,6 @@ export interface Policies {
   /** Of the balls in which curvatures are measured, in mean edge lengths. */
   radius: number;
   seeding: 'farthest' | 'particles' | 'coarse';
-  /** Several are what the option `--thorough` places. */
-  seedings: 'once' | 'several';
   mergeCost: 'learned' | 'size' | 'boundary';
 }
 

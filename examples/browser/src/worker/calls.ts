@@ -25,7 +25,6 @@ export const defaultPolicies: Policies = {
   difference: 'concavity',
   radius: 3,
   seeding: 'farthest',
-  seedings: 'once',
   mergeCost: 'learned',
 };
 

@@ -83,7 +83,6 @@ test('each choice of policies has a hierarchy of its own, which is kept', async 
   let policies = { ...defaultPolicies };
   for (const [label, choice] of [
     ['Faces differ by', { difference: 'curvature' }],
-    ['Seeds are placed', { seedings: 'several' }],
     ['Seeds lie', { seeding: 'coarse' }],
     ['Merged first are', { mergeCost: 'boundary' }],
   ] as const) {
@@ -96,7 +95,7 @@ test('each choice of policies has a hierarchy of its own, which is kept', async 
   }
   await page.getByLabel('Merged first are').selectOption(defaultPolicies.mergeCost);
   await expect(page.locator('#parts')).toBeVisible();
-  expect((await segmentation.engineCalls()).hierarchy).toBe(4);
+  expect((await segmentation.engineCalls()).hierarchy).toBe(3);
   await page.getByText('Machine part').click();
   await expect(page.getByText('How parts are found')).toBeHidden();
 });
@@ -123,22 +122,6 @@ test('curvatures have a radius, which changes the parts', async ({ segmentation 
   }
   expect(answers[0]).not.toEqual(answers[1]);
   await segmentation.screenshot('radius');
-});
-
-test('seeds placed several times give other parts', async ({ segmentation }) => {
-  const { page } = segmentation;
-  await segmentation.openMesh('bumps.off', bumpySphere(24));
-  await page.click('#tab-automatic');
-  await page.getByText('How parts are found').click();
-  const answers: string[] = [];
-  for (const seedings of ['once', 'several']) {
-    await page.getByLabel('Seeds are placed').selectOption(seedings);
-    await page.click('#compute');
-    await expect(page.locator('#parts')).toBeVisible();
-    await page.locator('#parts').fill('9');
-    answers.push(JSON.stringify(await segmentation.labels()));
-  }
-  expect(answers[0]).not.toBe(answers[1]);
 });
 
 test('a computation can be cancelled, and the page goes on as before', async ({ segmentation }) => {

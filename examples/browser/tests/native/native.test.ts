@@ -68,7 +68,6 @@ for (const [model, choices, options] of [
   ['hand', { difference: 'dihedral', seeding: 'particles' }, ['--difference', 'dihedral', '--seeding', 'particles']],
   ['hand', { difference: 'curvature' }, ['--difference', 'curvature']],
   ['hand', { difference: 'curvature', radius: 5 }, ['--difference', 'curvature', '--radius', '5']],
-  ['quadruped', { seedings: 'several' }, ['--thorough']],
   ['hand', { mergeCost: 'size' }, ['--merge-cost', 'size']],
   ['quadruped', { seeding: 'coarse', mergeCost: 'boundary' }, ['--seeding', 'coarse', '--merge-cost', 'boundary']],
   ['turned shaft', { kind: 'engineering' }, ['--engineering']],
@@ -126,7 +125,7 @@ test('every file is byte for byte what the tool writes', async () => {
 
 test('a page that the tool writes has its walls and its policies', async ({ segmentation }) => {
   await engineWithModel('turned shaft');
-  const options = ['--constraints-angle', '40', '--difference', 'curvature', '--radius', '4', '--thorough'];
+  const options = ['--constraints-angle', '40', '--difference', 'curvature', '--radius', '4'];
   segmentNatively(...options, '--html', 'result.html', '--page', pageFile, '--report', 'report.json');
   const report = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8')) as { walls: number };
   const { page } = segmentation;
@@ -134,7 +133,6 @@ test('a page that the tool writes has its walls and its policies', async ({ segm
   await expect(page.locator('#wall-file-name')).toHaveText('Walls of mesh.off');
   await expect(page.locator('#wall-count')).toHaveText(`${report.walls.toLocaleString('en')} edges`);
   await expect(page.locator('#radius')).toHaveValue('4');
-  await expect(page.locator('#seedings')).toHaveValue('several');
   await expect(page.locator('#parts')).toBeVisible(); // nothing is to be found anew
 });
 
