@@ -44,7 +44,7 @@ def assert_picture(path: Path) -> None:
 @pytest.mark.parametrize(
     ("example", "said"),
     [
-        ("dendrogram.py", r"40 fragments, 6 segments suggested"),
+        ("dendrogram.py", r"76 fragments, 6 segments suggested"),
         ("seeds_and_probabilities.py", r"6 seeds, 6 segments\n5 segments without the thumb's seed"),
         ("machine_part.py", r"(?s)cylinder.*plane.*cone.*torus"),
     ],
