@@ -2,6 +2,8 @@
 
 #include "Segmentation.h"
 
+#include "surfaces.h"
+
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Random_walk.h>
@@ -103,19 +105,6 @@ Segmentation segment_automatically(const Dual& mesh, const std::vector<Face_labe
   return segmentation_of(hierarchy, mesh.mesh(), policies.stop, stop_by_shape(method.merge_cost));
 }
 
-/// How far surfaces may be from being regular. Where the user does not tell, three standard errors, and what single
-/// precision hides.
-/// \param diagonal of the mesh's bounding box
-RW_segmentation::Regularity_tolerance regularity_tolerance(const Options& options, double diagonal) {
-  constexpr double degree = 3.14159265358979323846 / 180;
-  constexpr double rounding = 1e-7;  // of the diagonal, and in radians
-  RW_segmentation::Regularity_tolerance tolerance;
-  tolerance.length = options.regular_length.value_or(rounding * diagonal);
-  tolerance.angle = options.regular_angle ? *options.regular_angle * degree : rounding;
-  if (options.regular_length || options.regular_angle) tolerance.standard_errors = 0;
-  return tolerance;
-}
-
 /// Each segment is a surface, which is fitted, too.
 Segmentation segment_into_surfaces(const Dual& mesh, const Options& options, Stages& stages) {
   namespace RW = RW_segmentation;
@@ -130,7 +119,8 @@ Segmentation segment_into_surfaces(const Dual& mesh, const Options& options, Sta
   const std::size_t segments = *std::max_element(result.label.begin(), result.label.end()) + 1;
   result.surfaces = RW::segment_surfaces(mesh, face_map(mesh.mesh(), result.label), segments, numbers.noise);
   if (options.is_regular) {
-    RW::Regular_surfaces regular = RW::regular_surfaces(result.surfaces, regularity_tolerance(options, mesh.unit()));
+    const auto tolerance = regularity_tolerance({options.regular_length, options.regular_angle}, mesh.unit());
+    RW::Regular_surfaces regular = RW::regular_surfaces(result.surfaces, tolerance);
     result.surfaces = std::move(regular.surfaces);
     result.snaps = std::move(regular.snaps);
   }

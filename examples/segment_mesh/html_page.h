@@ -14,6 +14,7 @@
 #include "Oriented_mesh.h"
 #include "Segmentation.h"
 #include "report.h"
+#include "surfaces.h"
 #include "walls.h"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
@@ -23,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -136,6 +138,17 @@ inline Json walls_for_page(const Mesh& mesh, const Wall_map& walls, const Option
   return text.empty() ? Json() : Json(text);
 }
 
+/// The surfaces and what was made regular as a page takes them; null where segments are no surfaces.
+inline Json surfaces_for_page(const Segmentation& result, const Options& options) {
+  if (result.surfaces.empty()) return nullptr;
+  Json regularity;
+  if (options.is_regular) {
+    const auto number = [](const std::optional<double>& given) { return given ? Json(*given) : Json(); };
+    regularity = {{"length", number(options.regular_length)}, {"angle", number(options.regular_angle)}};
+  }
+  return {{"surfaces", surfaces_of(result.surfaces)}, {"regular", snaps_of(result.snaps)}, {"regularity", regularity}};
+}
+
 /// A segmentation as a page takes it.
 inline Json result_for_page(const std::string& path, const Mesh& mesh, const Wall_map& walls,
                             const Segmentation& result, std::size_t segments, const Options& options) {
@@ -154,6 +167,7 @@ inline Json result_for_page(const std::string& path, const Mesh& mesh, const Wal
           {"mode", mode},
           {"policies", mode == "graphical" ? policies_for_page(options) : Json()},
           {"walls", walls_for_page(mesh, walls, options)},
+          {"surfaces", surfaces_for_page(result, options)},
           {"seeds", std::move(seeds)}};
 }
 

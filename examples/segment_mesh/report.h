@@ -9,11 +9,9 @@
 #include "Segmentation.h"
 #include "close_parts.h"
 #include "segments.h"
+#include "surfaces.h"
 
-#include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/regular_surfaces.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <string>
@@ -21,62 +19,6 @@
 #include <vector>
 
 namespace segment_mesh {
-
-using Json = nlohmann::ordered_json;
-
-/// The type of a surface and the numbers that it has with their standard errors, null where vertices do not tell them; in
-/// the coordinates of the mesh; angles are in degrees.
-inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
-  using RW_segmentation::Surface_type;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  const auto vector = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
-  const RW_segmentation::Surface_errors& errors = surface.errors;
-  const double turn = errors.direction / degree;
-  Json result, error;
-  switch (surface.type) {
-    case Surface_type::plane:
-      result = {{"type", "plane"}, {"point", vector(surface.point)}, {"normal", vector(surface.direction)}};
-      error = {{"point", errors.point}, {"normal", turn}};
-      break;
-    case Surface_type::sphere:
-      result = {{"type", "sphere"}, {"centre", vector(surface.point)}, {"radius", surface.radius}};
-      error = {{"centre", errors.point}, {"radius", errors.radius}};
-      break;
-    case Surface_type::cylinder:
-      result = {{"type", "cylinder"}, {"point", vector(surface.point)}, {"axis", vector(surface.direction)}};
-      result["radius"] = surface.radius;
-      error = {{"point", errors.point}, {"axis", turn}, {"radius", errors.radius}};
-      break;
-    case Surface_type::cone:
-      result = {{"type", "cone"}, {"apex", vector(surface.point)}, {"axis", vector(surface.direction)}};
-      result["half_angle"] = surface.half_angle / degree;
-      error = {{"apex", errors.point}, {"axis", turn}, {"half_angle", errors.half_angle / degree}};
-      break;
-    case Surface_type::torus:
-      result = {{"type", "torus"}, {"centre", vector(surface.point)}, {"axis", vector(surface.direction)}};
-      result["radius"] = surface.radius;
-      result["tube_radius"] = surface.tube_radius;
-      error = {{"centre", errors.point}, {"axis", turn}, {"radius", errors.radius}};
-      error["tube_radius"] = errors.tube_radius;
-      break;
-    case Surface_type::free_form:
-      return {{"type", "free form"}};
-  }
-  result["residual"] = surface.residual;
-  result["errors"] = error;
-  return result;
-}
-
-/// What two surfaces have in common; differences of directions are in degrees.
-inline Json snap_of(const RW_segmentation::Surface_snap& snap) {
-  using RW_segmentation::Regularity;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  const bool is_angle = snap.regularity == Regularity::parallel || snap.regularity == Regularity::perpendicular ||
-                        snap.regularity == Regularity::equal_half_angle;
-  return {{"regularity", name_of(snap.regularity)},
-          {"labels", {snap.first, snap.second}},
-          {"difference", is_angle ? snap.difference / degree : snap.difference}};
-}
 
 /// The numbers and the names of what segments are made by. Surfaces have none.
 inline Json parameters_of(const Options& options, const Method& method) {
@@ -139,7 +81,7 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
   if (!result.surfaces.empty())
     for (Json& segment : report["segments"])
       segment["surface"] = surface_of(result.surfaces[segment["label"].get<std::size_t>()]);
-  for (const RW_segmentation::Surface_snap& snap : result.snaps) report["regular"].push_back(snap_of(snap));
+  if (!result.snaps.empty()) report["regular"] = snaps_of(result.snaps);
   return report;
 }
 
