@@ -8,6 +8,7 @@
 #include "../../mesh_files/write_mesh.h"
 #include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
+#include "../../segment_mesh/surfaces.h"
 #include "../../segment_mesh/walls.h"
 
 #include <RW_segmentation/Conductance.h>
@@ -15,6 +16,8 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/Segment_hierarchy.h>
+#include <RW_segmentation/regular_surfaces.h>
+#include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smooth_boundaries.h>
@@ -199,6 +202,22 @@ class Session {
     return levels_of(RW_segmentation::hierarchy_of_surfaces(
                          mesh(), numbers, CGAL::parameters::callback(callback).edge_is_constrained_map(walls_)),
                      [&](const RW_segmentation::Merge_tree& tree) { return numbers.stop(tree); });
+  }
+
+  /// The surfaces that segments lie on, as the report of the tool segment_mesh has them, and what was made regular.
+  /// \param labels from 0 on
+  /// \param regularity without it surfaces stay as they were fitted
+  segment_mesh::Json surfaces(std::vector<Label> labels,
+                              const std::optional<segment_mesh::Regular_option>& regularity) const {
+    namespace RW = RW_segmentation;
+    if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
+    const RW::Dual_mesh_of dual(mesh(), CGAL::parameters::edge_is_constrained_map(walls_));
+    const std::size_t segments = std::size_t(*std::max_element(labels.begin(), labels.end())) + 1;
+    RW::Regular_surfaces result{RW::segment_surfaces(dual, face_map(mesh(), labels), segments), {}};
+    if (regularity)
+      result = RW::regular_surfaces(result.surfaces, segment_mesh::regularity_tolerance(*regularity, dual.unit()));
+    return {{"surfaces", segment_mesh::surfaces_of(result.surfaces)},
+            {"regular", segment_mesh::snaps_of(result.snaps)}};
   }
 
   /// The smooth boundaries between segments.

@@ -146,6 +146,19 @@ class Engine {
     });
   }
 
+  /// \param regularity a `Regularity` of the page, or null
+  val surfaces(val labels, val regularity) {
+    return answer([&] {
+      const auto number = [&](const char* property) {
+        const val given = regularity[property];
+        return given.isNull() ? std::nullopt : std::optional(given.as<double>());
+      };
+      std::optional<segment_mesh::Regular_option> option;
+      if (!regularity.isNull()) option = segment_mesh::Regular_option{number("length"), number("angle")};
+      return val(session_.surfaces(emscripten::convertJSArrayToNumberVector<Label>(labels), option).dump());
+    });
+  }
+
   val smooth_boundaries(val labels) {
     return answer(
         [&] { return object_of(session_.smooth_boundaries(emscripten::convertJSArrayToNumberVector<Label>(labels))); });
@@ -204,6 +217,7 @@ EMSCRIPTEN_BINDINGS(engine) {
       .function("anticipate", &Engine::anticipate)
       .function("probabilities", &Engine::probabilities)
       .function("hierarchy", &Engine::hierarchy)
+      .function("surfaces", &Engine::surfaces)
       .function("smoothBoundaries", &Engine::smooth_boundaries)
       .function("file", &Engine::file);
 }

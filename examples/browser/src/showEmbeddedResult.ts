@@ -34,6 +34,10 @@ function show(session: Session, result: EmbeddedResult): void {
     session.automatic.kind.value = result.mode;
     if (result.hierarchy)
       session.automatic.take(method, session.walls.peek(), { hierarchy: result.hierarchy, parts: result.segments });
+    if (result.surfaces) {
+      const { regularity, ...found } = result.surfaces;
+      session.surfaces.take({ segmentOfFace: result.segmentOfFace, regularity, found });
+    }
     session.mode.value = 'automatic';
   }
 }

@@ -60,3 +60,39 @@ export function triangulated({ points, faces }: { points: number[][]; faces: num
   const fan = (face: number[]) => face.slice(2).map((corner, i) => [face[0], face[i + 1], corner]);
   return { points, faces: faces.flatMap(fan) };
 }
+
+/** A turned shaft with steps: cylinders of these radii, each as long as its radius, beside each other, and the flat rings between. */
+export function shaft(radii: number[], n = 48): { points: number[][]; faces: number[][] } {
+  const rows = 4; // of faces along each cylinder and each ring
+  const profile: [number, number][] = [[0, 0]];
+  let z = 0;
+  const lineTo = (radius: number, height: number) => {
+    const [from, start] = profile[profile.length - 1];
+    for (let i = 1; i <= rows; ++i)
+      profile.push([from + ((radius - from) * i) / rows, start + ((height - start) * i) / rows]);
+  };
+  for (const radius of radii) {
+    lineTo(radius, z);
+    lineTo(radius, (z += radius));
+  }
+  lineTo(0, z);
+  const rings = profile.slice(1, -1);
+  const points = [[0, 0, 0]];
+  for (const [radius, height] of rings)
+    for (let j = 0; j < n; ++j) {
+      const angle = (2 * Math.PI * j) / n;
+      points.push([radius * Math.cos(angle), radius * Math.sin(angle), height]);
+    }
+  points.push([0, 0, z]);
+  const vertex = (ring: number, j: number) => 1 + ring * n + (j % n);
+  const faces: number[][] = [];
+  for (let j = 0; j < n; ++j) {
+    faces.push([0, vertex(0, j + 1), vertex(0, j)]);
+    for (let ring = 0; ring + 1 < rings.length; ++ring) {
+      faces.push([vertex(ring, j), vertex(ring, j + 1), vertex(ring + 1, j + 1)]);
+      faces.push([vertex(ring, j), vertex(ring + 1, j + 1), vertex(ring + 1, j)]);
+    }
+    faces.push([vertex(rings.length - 1, j), vertex(rings.length - 1, j + 1), points.length - 1]);
+  }
+  return { points, faces };
+}

@@ -1,4 +1,4 @@
-import type { Hierarchy, HierarchyKind, Policies } from '../worker/EngineModule';
+import type { FoundSurfaces, Hierarchy, HierarchyKind, Policies, Regularity } from '../worker/EngineModule';
 
 /** A result that `segment_mesh --html` has put into the page. */
 export interface EmbeddedResult {
@@ -13,6 +13,8 @@ export interface EmbeddedResult {
   policies?: Partial<Policies> | null;
   /** Two vertices a line. */
   walls?: string | null;
+  /** Of a machine part, and what they were made regular by. */
+  surfaces?: (FoundSurfaces & { regularity: Regularity | null }) | null;
   seeds: { face: number; label: number }[];
 }
 

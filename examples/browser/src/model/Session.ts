@@ -11,6 +11,7 @@ import { palette } from './palette';
 import { segmentColors } from './segmentColors';
 import { neighboursOf, segmentsOf, type Segment } from './segments';
 import { SeedSegmentation } from './SeedSegmentation';
+import { Surfaces } from './Surfaces';
 
 export type Mode = 'seeds' | 'automatic';
 export type Tool = 'view' | 'seed' | 'paint' | 'erase';
@@ -64,6 +65,12 @@ export class Session {
       ? this.seeds.segmentOfFace.value
       : (this.automatic.segmentOfFace.value ?? this.givenLabels.value),
   );
+
+  /** The segment of each face of a machine part, which are surfaces; null for other segments. */
+  readonly surfaceSegments = computed(() =>
+    this.mode.value === 'automatic' && this.automatic.kind.value === 'engineering' ? this.segmentOfFace.value : null,
+  );
+  readonly surfaces = new Surfaces(this.background, this.surfaceSegments, this.walls, (error) => this.report(error));
 
   readonly segments = computed<ShownSegment[]>(() => {
     const segmentOfFace = this.segmentOfFace.value;
@@ -120,6 +127,7 @@ export class Session {
         this.wallEdges.value = mesh.walls;
         this.appearance.reset();
         this.automatic.reset();
+        this.surfaces.reset();
         this.seeds.reset();
         this.mesh.value = mesh;
         this.name.value = name;

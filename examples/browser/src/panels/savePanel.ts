@@ -1,5 +1,6 @@
 import { effect } from '@preact/signals-core';
 import { labelFormats, meshFormats, type SavedFormat } from '../files/formats';
+import { reportFile } from '../files/report';
 import { save, stem } from '../files/save';
 import { seedsFile } from '../files/seeds';
 import type { Session } from '../model/Session';
@@ -27,6 +28,12 @@ export function savePanel(session: Session, viewer: Viewer): void {
       (error) => session.report(error),
     );
   });
+  onClick('save-report', () => {
+    const mesh = session.mesh.peek();
+    if (!mesh) return;
+    const report = reportFile(session.name.peek(), mesh, session.segments.peek(), session.surfaces.found.peek());
+    save(`${name()}_report.json`, report);
+  });
   onClick('save-seeds', () => {
     const faces = session.mesh.peek()?.faces ?? 0;
     save(`${name()}_seeds.json`, seedsFile(session.seeds.annotation.peek(), session.name.peek(), faces));
@@ -36,6 +43,8 @@ export function savePanel(session: Session, viewer: Viewer): void {
     const enable = (id: string, isPossible: boolean) => (byId<HTMLButtonElement>(id).disabled = !isPossible);
     const hasMesh = session.mesh.value !== null;
     enable('save-segments', session.segments.value.length > 0);
+    const isFinding = session.surfaceSegments.value !== null && session.surfaces.found.value === null;
+    enable('save-report', session.segments.value.length > 0 && !isFinding);
     for (const id of ['save-picture', 'load-seeds']) enable(id, hasMesh);
     enable('save-seeds', hasMesh && session.seeds.annotation.value.seeds.size > 0);
   });

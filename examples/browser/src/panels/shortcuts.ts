@@ -74,7 +74,7 @@ function keyOf(event: KeyboardEvent): string {
 
 function isTyping({ target, ctrlKey, metaKey }: KeyboardEvent): boolean {
   if (target instanceof HTMLSelectElement) return !(ctrlKey || metaKey);
-  return target instanceof HTMLInputElement && target.type === 'text';
+  return target instanceof HTMLInputElement && ['text', 'number'].includes(target.type);
 }
 
 function listShortcuts(list: readonly Shortcut[]): void {

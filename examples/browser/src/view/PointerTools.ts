@@ -33,7 +33,10 @@ export class PointerTools {
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.up(event));
     canvas.addEventListener('pointercancel', () => this.cancel());
-    canvas.addEventListener('pointerleave', () => (this.cursor.hidden = true));
+    canvas.addEventListener('pointerleave', () => {
+      this.cursor.hidden = true;
+      session.surfaces.pointedFace.value = null;
+    });
     effect(() => {
       canvas.dataset.tool = session.tool.value;
       stage.viewer.controls.touches.TWO = this.paints() ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN;
@@ -42,8 +45,14 @@ export class PointerTools {
 
   /** Uses the tool once at a place of the window. */
   useAt(x: number, y: number): void {
+    if (this.session.mode.peek() === 'automatic') return this.pointAt(x, y);
     const faces = this.facesAt(x, y);
     if (faces) this.edit(faces, false);
+  }
+
+  /** Tells the surface of the face at a place of the window. */
+  private pointAt(x: number, y: number): void {
+    this.session.surfaces.pointedFace.value = this.hitAt(x, y)?.face ?? null;
   }
 
   private down(event: PointerEvent): void {
@@ -60,6 +69,7 @@ export class PointerTools {
 
   private move(event: PointerEvent): void {
     this.showCursor(event);
+    if (event.buttons === 0 && this.session.surfaceSegments.peek()) this.pointAt(event.clientX, event.clientY);
     if (this.stroke !== 'none') for (const step of event.getCoalescedEvents?.() ?? [event]) this.strokeTo(step);
   }
 

@@ -1,4 +1,5 @@
 import {
+  Box3,
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
@@ -101,6 +102,22 @@ export class SegmentedMesh {
   bounds(): Sphere {
     this.object.geometry.computeBoundingSphere();
     return this.object.geometry.boundingSphere!;
+  }
+
+  /** A sphere around some of the faces as they are placed, and the sum of their normals by area: 0 for what is closed. */
+  boundsOf(isPart: (face: number) => boolean): { sphere: Sphere; normal: Vector3 } {
+    const { faceOfTriangle } = this.mesh;
+    const box = new Box3();
+    const normal = new Vector3();
+    const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+    faceOfTriangle.forEach((face, triangle) => {
+      if (!isPart(face)) return;
+      [a, b, c].forEach((corner, i) => box.expandByPoint(corner.fromBufferAttribute(this.placed, 3 * triangle + i)));
+      normal.add(b.sub(a).cross(c.sub(a)));
+    });
+    const sphere = box.getBoundingSphere(new Sphere());
+    if (normal.length() < 1e-3 * sphere.radius ** 2) normal.set(0, 0, 0);
+    return { sphere, normal };
   }
 
   /** The first face that a ray meets. */

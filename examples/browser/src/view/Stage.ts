@@ -1,6 +1,6 @@
 import { effect, untracked } from '@preact/signals-core';
 import { Vector3 } from 'three';
-import { colorOf } from '../model/colorVision';
+import { colorOf, type Color } from '../model/colorVision';
 import { heat } from '../model/heatMap';
 import type { Session, ShownSegment } from '../model/Session';
 import type { LoadedMesh } from '../worker/calls';
@@ -9,7 +9,10 @@ import { packed, SegmentedMesh, type Placement } from './SegmentedMesh';
 import { SurfaceCurves } from './SurfaceCurves';
 import { Viewer } from './Viewer';
 
-const unsegmented = packed([196, 202, 210]);
+const grey: Color = [196, 202, 210];
+const unsegmented = packed(grey);
+/** How much of their colour segments keep beside one that stands out. */
+const faded = 0.3;
 const boundaryColor = 0x14181f;
 const wallColor = 0xd0021b;
 
@@ -32,6 +35,7 @@ export class Stage {
     effect(() => this.place());
     effect(() => this.showSeeds());
     effect(() => this.showCurves());
+    effect(() => this.approachChosen());
   }
 
   /** Shows all of the mesh. */
@@ -67,12 +71,30 @@ export class Stage {
       shown.paint((face) => colors[Math.round(255 * probabilities[face])]);
     } else if (segmentOfFace) {
       const colors: number[] = [];
-      for (const segment of session.segments.value) colors[segment.label] = packed(segment.color);
+      for (const segment of session.segments.value) colors[segment.label] = packed(this.colorOf(segment));
       shown.paint((face) => colors[segmentOfFace[face]]);
     } else {
       shown.paint(() => unsegmented);
     }
     this.viewer.draw();
+  }
+
+  /** The colour of a segment: greyed if its surface is of no interest, and faded beside one that stands out. */
+  private colorOf({ label, color }: ShownSegment): Color {
+    const { found, greyed, chosen } = this.session.surfaces;
+    const surface = found.value?.surfaces[label];
+    if (!surface || chosen.value === label) return color;
+    if (greyed.value.has(surface.type)) return grey;
+    const mixed = (i: number) => Math.round(faded * color[i] + (1 - faded) * grey[i]);
+    return chosen.value === null ? color : [mixed(0), mixed(1), mixed(2)];
+  }
+
+  private approachChosen(): void {
+    const label = this.session.surfaces.chosen.value;
+    const segmentOfFace = this.session.segmentOfFace.peek();
+    if (label === null || !segmentOfFace || !this.shown) return;
+    const { sphere, normal } = this.shown.boundsOf((face) => segmentOfFace[face] === label);
+    this.viewer.approach(sphere, normal);
   }
 
   private place(): void {

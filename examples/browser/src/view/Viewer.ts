@@ -18,6 +18,9 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 ColorManagement.enabled = false; // labels have the same colours on the mesh as in the lists
 
+/** The cosine under which a part is seen well enough. */
+const facing = 0.25;
+
 /** Camera, light and canvas. Draws when something has changed. */
 export class Viewer {
   /** What is looked at. Points and rays below are in its coordinates. */
@@ -82,6 +85,30 @@ export class Viewer {
     this.camera.position.copy(this.bounds.center).addScaledVector(direction, distance);
     this.controls.minDistance = this.bounds.radius * 0.02;
     this.controls.maxDistance = this.bounds.radius * 50;
+    this.controls.update();
+    this.draw();
+  }
+
+  /**
+   * Moves the camera towards a part of what it sees.
+   *
+   * @param normal of the part; where that faces away, the camera turns to see it
+   */
+  approach(part: Sphere, normal: Vector3): void {
+    this.content.updateMatrixWorld();
+    const sphere = part.clone().applyMatrix4(this.content.matrixWorld);
+    const outward = normal.clone().transformDirection(this.content.matrixWorld);
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    if (normal.lengthSq() > 0 && direction.dot(outward) < facing)
+      direction
+        .copy(outward)
+        .add(new Vector3(0.2, 0.2, 0.2))
+        .normalize();
+    const context = Math.max(3 * sphere.radius, 0.4 * this.bounds.radius); // so that one sees where it is
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = context / (Math.sin((this.camera.fov * Math.PI) / 360) * narrow);
+    this.controls.target.copy(sphere.center);
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance);
     this.controls.update();
     this.draw();
   }

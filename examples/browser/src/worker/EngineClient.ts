@@ -1,6 +1,6 @@
 import EngineWorker from './worker?worker&inline';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { AutomaticMethod, Curves, Walls } from './EngineModule';
+import type { AutomaticMethod, Curves, FoundSurfaces, Walls } from './EngineModule';
 
 /** A computation that the user has ended. */
 export class Cancelled extends Error {
@@ -67,6 +67,10 @@ export class EngineClient {
 
   hierarchy(method: AutomaticMethod, walls: Walls, onProgress: (fraction: number) => void): Promise<TimedHierarchy> {
     return this.callOnMesh('hierarchy', [method, walls], onProgress);
+  }
+
+  surfaces(...values: Parameters<Calls['surfaces']>): Promise<FoundSurfaces> {
+    return this.callOnMesh('surfaces', values);
   }
 
   smoothBoundaries(...values: Parameters<Calls['smoothBoundaries']>): Promise<Curves> {

@@ -25,6 +25,12 @@ export interface Engine {
   probabilities(label: number): Float32Array | Failure;
   /** @param progress told the part done, in [0, 1]; false cancels */
   hierarchy(method: AutomaticMethod, progress: (fraction: number) => boolean): Hierarchy | Failure;
+  /**
+   * `FoundSurfaces` as JSON.
+   *
+   * @param regularity null leaves surfaces as they were fitted
+   */
+  surfaces(labels: Uint32Array, regularity: Regularity | null): string | Failure;
   smoothBoundaries(labels: Uint32Array): Curves | Failure;
   /**
    * A file of the mesh with its segments, or of the labels alone, as the tool segment_mesh writes it.
@@ -103,6 +109,54 @@ export interface Hierarchy {
   suggested: number;
   /** The numbers of segments that people may prefer, that one among them, rising. */
   levels: ArrayLike<number>;
+}
+
+export type SurfaceType = 'plane' | 'cylinder' | 'cone' | 'sphere' | 'torus' | 'free form';
+type Vector = [number, number, number];
+
+/**
+ * What a segment lies on, by the names of the report of the tool segment_mesh: angles are in degrees, all else is in the
+ * mesh's unit. Each type has some of the numbers, a free form none.
+ */
+export interface Surface {
+  type: SurfaceType;
+  point?: Vector;
+  centre?: Vector;
+  apex?: Vector;
+  normal?: Vector;
+  axis?: Vector;
+  /** Of a torus, the circle that its tube is centred on. */
+  radius?: number;
+  tube_radius?: number;
+  half_angle?: number;
+  /** Root mean square distance of the vertices. */
+  residual?: number;
+  /** Standard errors; null where the vertices do not tell a number. */
+  errors?: Partial<
+    Record<'point' | 'centre' | 'apex' | 'normal' | 'axis' | 'radius' | 'tube_radius' | 'half_angle', number | null>
+  >;
+}
+
+/** What surfaces may be off by to be made regular; null for what their standard errors and rounding excuse. */
+export interface Regularity {
+  /** In the mesh's unit. */
+  length: number | null;
+  /** In degrees. */
+  angle: number | null;
+}
+
+/** What two surfaces have been made to have in common. */
+export interface SurfaceSnap {
+  regularity: string;
+  labels: [number, number];
+  /** That they had before, in degrees or in the mesh's unit. */
+  difference: number;
+}
+
+export interface FoundSurfaces {
+  /** By label. */
+  surfaces: Surface[];
+  regular: SurfaceSnap[];
 }
 
 /** Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */

@@ -1,5 +1,15 @@
 import type { Seeds } from '../model/seeds';
-import type { AutomaticMethod, Curves, FileFormat, Hierarchy, MeshData, Policies, Walls } from './EngineModule';
+import type {
+  AutomaticMethod,
+  Curves,
+  FileFormat,
+  FoundSurfaces,
+  Hierarchy,
+  MeshData,
+  Policies,
+  Regularity,
+  Walls,
+} from './EngineModule';
 
 /** Where a mesh comes from. */
 export type MeshSource = { fileName: string; bytes: Uint8Array } | { model: string };
@@ -53,6 +63,7 @@ export interface Calls {
   /** The probability of a label for each face. */
   probabilities(seeds: Seeds, label: number): Float32Array;
   hierarchy(method: AutomaticMethod, walls: Walls): TimedHierarchy;
+  surfaces(labels: Uint32Array, regularity: Regularity | null, walls: Walls): FoundSurfaces;
   smoothBoundaries(labels: Uint32Array, walls: Walls): Curves;
   file(format: FileFormat, name: string, materials: string, labels: Uint32Array, colors: Uint32Array): Uint8Array;
 }

@@ -2,7 +2,7 @@ import createEngine from 'engine';
 import { seedEdit, type Seeds } from '../model/seeds';
 import { adjacentFaces } from './adjacentFaces';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
-import type { AutomaticMethod, Curves, Engine, Failure, Walls } from './EngineModule';
+import type { AutomaticMethod, Curves, Engine, Failure, FoundSurfaces, Walls } from './EngineModule';
 
 const moduleIsReady = createEngine();
 let engine: Engine | undefined;
@@ -103,6 +103,8 @@ function calls(tell: (progress: number) => void) {
       return value(loaded().probabilities(label));
     },
     hierarchy: (method, walls) => hierarchy(method, walls, tell),
+    surfaces: (labels, regularity, walls) =>
+      JSON.parse(value(walled(walls).surfaces(labels, regularity))) as FoundSurfaces,
     smoothBoundaries: (labels, walls) => value(walled(walls).smoothBoundaries(labels)),
     file: (...values) => value(loaded().file(...values)),
   } satisfies { [Name in keyof Calls]: (...values: Parameters<Calls[Name]>) => unknown };

@@ -4,7 +4,15 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { defaultPolicies } from '../../src/worker/calls';
-import type { AutomaticMethod, Engine, MeshData, Walls } from '../../src/worker/EngineModule';
+import type {
+  AutomaticMethod,
+  Engine,
+  FoundSurfaces,
+  MeshData,
+  Regularity,
+  Surface,
+  Walls,
+} from '../../src/worker/EngineModule';
 import { labelFormats, meshFormats } from '../../src/files/formats';
 import { answer, engineModule, engineWith, expect, pageFile, test } from '../browser/fixture';
 import { cube, offFile } from '../meshes';
@@ -39,10 +47,16 @@ function fileOf({ positions, triangles }: MeshData): string {
   ].join('\n');
 }
 
-/** The engine with a generated mesh that is also the file mesh.off in the folder. */
-async function engineWithModel(model: string): Promise<{ engine: Engine; faces: number }> {
+/**
+ * The engine with a generated mesh that is also the file mesh.off in the folder.
+ *
+ * @param noise that each coordinate may be off by
+ */
+async function engineWithModel(model: string, noise = 0): Promise<{ engine: Engine; faces: number }> {
   const module = await engineModule();
-  const content = fileOf(answer(answer(module.generateMesh(model)).mesh()));
+  const mesh = answer(answer(module.generateMesh(model)).mesh());
+  const positions = mesh.positions.map((x, i) => x + noise * Math.sin(i * i));
+  const content = fileOf({ ...mesh, positions });
   writeFileSync(join(folder, 'mesh.off'), content);
   const engine = answer(module.readMesh(new TextEncoder().encode(content), 'mesh.off'));
   return { engine, faces: answer(engine.mesh()).faces };
@@ -99,6 +113,70 @@ for (const [model, walls, options] of [
     const hierarchy = answer(engine.hierarchy({ kind: 'graphical', ...defaultPolicies }, () => true));
     expect([...segmentsAtLevel(hierarchy, hierarchy.suggested)]).toEqual(labelsIn('labels.seg'));
   });
+
+/** The report of the tool, as far as it tells surfaces. */
+interface Report {
+  segments: { label: number; faces: number; area_share: number; surface: Surface }[];
+  regular?: FoundSurfaces['regular'];
+}
+
+const readReport = () => JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8')) as Report;
+
+/** Expects the same names and, but for rounding, the same numbers. The two are compiled to other instructions. */
+function expectSame(here: unknown, there: unknown, name = ''): void {
+  if (typeof there === 'number') {
+    const rounding = 1e-8; // relative to 1, or to the number; small angles, in degrees, lose most
+    expect(Math.abs((here as number) - there), name).toBeLessThan(rounding * Math.max(1, Math.abs(there)));
+  } else if (typeof there === 'object' && there !== null) {
+    expect(Object.keys(here as object), name).toEqual(Object.keys(there));
+    for (const [key, value] of Object.entries(there))
+      expectSame((here as Record<string, unknown>)[key], value, `${name}.${key}`);
+  } else {
+    expect(here, name).toBe(there);
+  }
+}
+
+// With noise, so that means are weighted by errors of the fits instead of those of rounding.
+for (const [regularity, options] of [
+  [null, []],
+  [{ length: null, angle: null }, ['--regular']],
+  [{ length: 0.1, angle: 2 }, ['--regular', '--regular-length', '0.1', '--regular-angle', '2']],
+] as [Regularity | null, string[]][])
+  test(`surfaces of the turned shaft are those of the report: ${options.join(' ')}`, async () => {
+    const { engine } = await engineWithModel('turned shaft', 2e-4);
+    segmentNatively('--engineering', ...options, '--labels', 'labels.seg', '--report', 'report.json');
+    const found = answer(engine.surfaces(Uint32Array.from(labelsIn('labels.seg')), regularity));
+    const { surfaces, regular } = JSON.parse(found) as FoundSurfaces;
+    const report = readReport();
+    expectSame(
+      surfaces,
+      report.segments.map(({ surface }) => surface),
+    );
+    expectSame(regular, report.regular ?? []);
+  });
+
+test('a page that the tool writes has its surfaces, and saves its report', async ({ segmentation }) => {
+  await engineWithModel('turned shaft');
+  const options = ['--engineering', '--regular', '--regular-length', '0.1', '--regular-angle', '2'];
+  segmentNatively(...options, '--html', 'result.html', '--page', pageFile, '--report', 'report.json');
+  const { page } = segmentation;
+  await segmentation.goto(pathToFileURL(join(folder, 'result.html')).href);
+  const tool = readReport();
+  await expect(page.locator('#surface-rows tr')).toHaveCount(tool.segments.length);
+  await expect(page.locator('#regular')).toBeChecked();
+  await expect(page.locator('#regular-length')).toHaveValue('0.1');
+  await expect(page.locator('#regular-angle')).toHaveValue('2');
+  await expect(page.locator('#snaps li')).toHaveCount(tool.regular?.length ?? 0);
+  expect((await segmentation.engineCalls()).surfaces ?? 0).toBe(0); // nothing is fitted anew
+  const saved = JSON.parse((await segmentation.saved('#save-report')).content.toString()) as Report;
+  expect(saved.segments.map(({ surface }) => surface)).toEqual(tool.segments.map(({ surface }) => surface));
+  expect(saved.regular).toEqual(tool.regular);
+  for (const [i, { label, faces, area_share }] of tool.segments.entries()) {
+    expect([saved.segments[i].label, saved.segments[i].faces]).toEqual([label, faces]);
+    expect(saved.segments[i].area_share).toBeCloseTo(area_share, 9);
+  }
+  await segmentation.screenshot('surfaces-written-by-the-tool');
+});
 
 test('every file is byte for byte what the tool writes', async () => {
   const { points, faces } = cube(6);
