@@ -36,8 +36,12 @@ struct Cone : Surface_of_revolution<Cone> {
     sine = std::sin(half_angle);
   }
 
-  Meridian_distance meridian(double s, double h) const { return {s * cosine - h * sine, cosine, -sine}; }
-  void shape_derivatives(double s, double h, const Meridian_distance&, double* row) const {
+  template <class Number>
+  Meridian_distance<Number> meridian(const Number& s, const Number& h) const {
+    return {s * cosine - h * sine, all<Number>(cosine), all<Number>(-sine)};
+  }
+  template <class Number>
+  void shape_derivatives(const Number& s, const Number& h, const Meridian_distance<Number>&, Number* row) const {
     row[0] = -s * sine - h * cosine;
   }
 

@@ -27,8 +27,14 @@ struct Cylinder : Surface_of_revolution<Cylinder> {
     return std::tie(surface.radius);
   }
 
-  Meridian_distance meridian(double s, double) const { return {s - radius, 1, 0}; }
-  void shape_derivatives(double, double, const Meridian_distance&, double* row) const { row[0] = -1; }
+  template <class Number>
+  Meridian_distance<Number> meridian(const Number& s, const Number&) const {
+    return {s - radius, all<Number>(1), all<Number>(0)};
+  }
+  template <class Number>
+  void shape_derivatives(const Number&, const Number&, const Meridian_distance<Number>&, Number* row) const {
+    row[0] = all<Number>(-1);
+  }
 
   /// All normals are orthogonal to the axis.
   static std::vector<Cylinder> first_guesses(const Scaled_samples& samples) {

@@ -3,9 +3,14 @@
 #ifndef RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 #define RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 
+#include <RW_segmentation/internal/surfaces/Point_block.h>
+
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -14,12 +19,13 @@ namespace RW_segmentation::internal {
 /// The sum of the squared distances of points from a surface.
 template <class Type>
 double squared_distances(const Type& surface, const std::vector<Eigen::Vector3d>& points) {
-  double sum = 0;
-  for (const Eigen::Vector3d& p : points) {
-    const double d = surface.distance(p);
-    sum += d * d;
+  Block_numbers sums = Block_numbers::Zero();
+  for (std::size_t i = 0; i < points.size(); i += points_of_block) {
+    Block_numbers distances = surface.distance(block_of(points, i));
+    clear_beyond(points.size() - i, distances);
+    sums += distances * distances;
   }
-  return sum;
+  return sums.sum();
 }
 
 /// Moves a surface until the distances of points from it have the least squares: damped Gauss-Newton steps
@@ -52,6 +58,7 @@ class Least_squares_surface {
 
  private:
   static constexpr int unknowns = Type::degrees_of_freedom;
+  static constexpr int points_at_once = 64;  // a multiple of those of a block
   using Vector = Eigen::Matrix<double, unknowns, 1>;
 
   double number_of_points() const { return static_cast<double>(points_.size()); }
@@ -122,12 +129,27 @@ class Least_squares_surface {
   void linearise(const typename Type::Frame& frame) {
     hessian_.setZero();
     gradient_.setZero();
-    Vector row;
-    for (const Eigen::Vector3d& p : points_) {
-      const double distance = surface_.derivatives(p, frame, row);
-      for (int j = 0; j < unknowns; ++j)
-        for (int i = j; i < unknowns; ++i) hessian_(i, j) += row[i] * row[j];
-      gradient_ += distance * row;
+    // The rows of many points, since a product of long columns is quick.
+    Eigen::Array<double, points_at_once, unknowns> rows;
+    Eigen::Array<double, points_at_once, 1> distances;
+    for (std::size_t first = 0; first < points_.size(); first += points_at_once) {
+      const std::size_t end = std::min(points_.size(), first + points_at_once);
+      Eigen::Index count = 0;
+      for (std::size_t i = first; i < end; i += points_of_block, count += points_of_block) {
+        std::array<Block_numbers, unknowns> row;
+        Block_numbers distance = surface_.derivatives(block_of(points_, i), frame, row);
+        clear_beyond(end - i, distance);
+        distances.template segment<points_of_block>(count) = distance;
+        for (std::size_t k = 0; k < unknowns; ++k) {
+          clear_beyond(end - i, row[k]);
+          rows.template block<points_of_block, 1>(count, static_cast<Eigen::Index>(k)) = row[k];
+        }
+      }
+      for (int j = 0; j < unknowns; ++j) {
+        const auto column = rows.col(j).head(count);
+        for (int i = j; i < unknowns; ++i) hessian_(i, j) += (column * rows.col(i).head(count)).sum();
+        gradient_[j] += (column * distances.head(count)).sum();
+      }
     }
   }
 

@@ -25,13 +25,19 @@ struct Plane : Placed_surface {
     return std::tie();
   }
 
-  double distance(const Eigen::Vector3d& p) const { return (p - point).dot(direction); }
+  double distance(const Eigen::Vector3d& p) const { return distance(coordinates(p)); }
+  template <class Number>
+  Number distance(const Coordinates<Number>& p) const {
+    return p.minus(point).dot(direction);
+  }
   Eigen::Vector3d normal(const Eigen::Vector3d&) const { return direction; }
 
-  template <class Row>
-  double derivatives(const Eigen::Vector3d& p, const Frame& frame, Row& row) const {
-    const Eigen::Vector3d q = p - point;
-    row << -1, q.dot(frame.first), q.dot(frame.second);
+  template <class Number, class Row>
+  Number derivatives(const Coordinates<Number>& p, const Frame& frame, Row& row) const {
+    const Coordinates<Number> q = p.minus(point);
+    row[0] = all<Number>(-1);
+    row[1] = q.dot(frame.first);
+    row[2] = q.dot(frame.second);
     return q.dot(direction);
   }
 

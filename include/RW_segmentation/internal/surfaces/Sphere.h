@@ -28,14 +28,22 @@ struct Sphere : Placed_surface {
     return std::tie(surface.radius);
   }
 
-  double distance(const Eigen::Vector3d& p) const { return (p - point).norm() - radius; }
+  double distance(const Eigen::Vector3d& p) const { return distance(coordinates(p)); }
+  template <class Number>
+  Number distance(const Coordinates<Number>& p) const {
+    return square_root(p.minus(point).squared_norm()) - radius;
+  }
   Eigen::Vector3d normal(const Eigen::Vector3d& p) const { return (p - point).normalized(); }
 
-  template <class Row>
-  double derivatives(const Eigen::Vector3d& p, const Frame&, Row& row) const {
-    const Eigen::Vector3d q = p - point;
-    const double length = q.norm();
-    row << -q / std::max(length, std::numeric_limits<double>::min()), -1;
+  template <class Number, class Row>
+  Number derivatives(const Coordinates<Number>& p, const Frame&, Row& row) const {
+    const Coordinates<Number> q = p.minus(point);
+    const Number length = square_root(q.squared_norm());
+    const Number unit = 1 / at_least(length, std::numeric_limits<double>::min());
+    row[0] = -q.x * unit;
+    row[1] = -q.y * unit;
+    row[2] = -q.z * unit;
+    row[3] = all<Number>(-1);
     return length - radius;
   }
   template <class Step>

@@ -3,9 +3,11 @@
 #ifndef RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_OF_REVOLUTION_H
 #define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_OF_REVOLUTION_H
 
+#include <RW_segmentation/internal/surfaces/Point_block.h>
+
 #include <Eigen/Geometry>
 
-#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <tuple>
 
@@ -28,8 +30,9 @@ struct Placed_surface {
 };
 
 /// The distance from a curve in the half plane beside an axis, and its gradient.
+template <class Number>
 struct Meridian_distance {
-  double distance, off_axis, along_axis;
+  Number distance, off_axis, along_axis;
 };
 
 /// The part of a type of surface that all surfaces of revolution have in common: distance, normal and derivatives by
@@ -37,29 +40,33 @@ struct Meridian_distance {
 ///
 /// \tparam Type the type, derived from this. It has `is_placed_along_axis`, false where a shift along the axis changes
 /// nothing; `Meridian_distance meridian(s, h)` at the distance s from the axis and the height h; and
-/// `shape_derivatives(s, h, meridian, row)`, by the numbers of the shape.
+/// `shape_derivatives(s, h, meridian, row)`, by the numbers of the shape. Both take one number or several at once.
 template <class Type>
 struct Surface_of_revolution : Placed_surface {
-  double distance(const Eigen::Vector3d& p) const {
-    const Place at(*this, p);
+  double distance(const Eigen::Vector3d& p) const { return distance(coordinates(p)); }
+
+  template <class Number>
+  Number distance(const Coordinates<Number>& p) const {
+    const Place<Number> at(*this, p);
     return type().meridian(at.s, at.h).distance;
   }
 
   Eigen::Vector3d normal(const Eigen::Vector3d& p) const {
-    const Place at(*this, p);
-    const Meridian_distance m = type().meridian(at.s, at.h);
-    return m.off_axis * at.outward() + m.along_axis * direction;
+    const Place<double> at(*this, coordinates(p));
+    const Meridian_distance<double> m = type().meridian(at.s, at.h);
+    const double outward = m.off_axis / at_least(at.s, std::numeric_limits<double>::min());
+    return outward * Eigen::Vector3d(at.across.x, at.across.y, at.across.z) + m.along_axis * direction;
   }
 
   /// By shifts of the point, turns of the direction, and the numbers of the shape.
-  template <class Row>
-  double derivatives(const Eigen::Vector3d& p, const Frame& frame, Row& row) const {
-    const Place at(*this, p);
-    const Meridian_distance m = type().meridian(at.s, at.h);
-    const Eigen::Vector3d outward = at.outward();
-    const double x = outward.dot(frame.first), y = outward.dot(frame.second);
-    const double turn = at.s * m.along_axis - at.h * m.off_axis;
-    int k = 0;
+  template <class Number, class Row>
+  Number derivatives(const Coordinates<Number>& p, const Frame& frame, Row& row) const {
+    const Place<Number> at(*this, p);
+    const Meridian_distance<Number> m = type().meridian(at.s, at.h);
+    const Number unit = 1 / at_least(at.s, std::numeric_limits<double>::min());
+    const Number x = at.across.dot(frame.first) * unit, y = at.across.dot(frame.second) * unit;
+    const Number turn = at.s * m.along_axis - at.h * m.off_axis;
+    std::size_t k = 0;
     row[k++] = -m.off_axis * x;
     row[k++] = -m.off_axis * y;
     if constexpr (Type::is_placed_along_axis) row[k++] = -m.along_axis;
@@ -86,17 +93,16 @@ struct Surface_of_revolution : Placed_surface {
 
  private:
   /// Where a point lies beside the axis.
+  template <class Number>
   struct Place {
-    Place(const Placed_surface& surface, const Eigen::Vector3d& p) {
-      const Eigen::Vector3d q = p - surface.point;
-      h = q.dot(surface.direction);
-      across = q - h * surface.direction;
-      s = across.norm();
+    Place(const Placed_surface& surface, const Coordinates<Number>& p) : across(p.minus(surface.point)) {
+      h = across.dot(surface.direction);
+      across = across.minus(h, surface.direction);
+      s = square_root(across.squared_norm());
     }
-    Eigen::Vector3d outward() const { return across / std::max(s, std::numeric_limits<double>::min()); }
 
-    Eigen::Vector3d across;
-    double s, h;
+    Coordinates<Number> across;
+    Number s, h;
   };
 
   const Type& type() const { return static_cast<const Type&>(*this); }

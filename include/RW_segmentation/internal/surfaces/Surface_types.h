@@ -24,11 +24,12 @@ namespace RW_segmentation::internal {
 /// - `name`, and `degrees_of_freedom`: how many numbers determine such a surface;
 /// - `point` and `direction`, and `numbers(surface)`, the numbers of the shape, in the struct itself and in an
 ///   `Analytic_surface`; `prepare()` is called when they have changed;
-/// - `distance(p)`, signed, and `normal(p)`, the gradient of it;
+/// - `distance(p)`, signed, of a point or of the `Coordinates` of several at once, and `normal(p)`, the gradient of it;
 /// - `first_guesses(samples)`, surfaces not far from `Scaled_samples`; `first_guess_is_closest` says that they are the
 ///   closest ones in the sense of least squares already;
 /// - `derivatives(p, frame, row)`: writes the derivatives of the distance by as many unknowns as there are degrees of
-///   freedom, `shifts` of the point, `turns` of the direction, and the numbers of the shape, and returns the distance;
+///   freedom, `shifts` of the point, `turns` of the direction, and the numbers of the shape, and returns the distance,
+///   all of them of `Coordinates`;
 ///   `moved(step, frame)`, unless first guesses are the closest: the surface after a step in these unknowns;
 ///   `Frame(surface)`, what the unknowns refer to;
 /// - `is_sound(samples)`: whether the samples tell it from a simpler surface.

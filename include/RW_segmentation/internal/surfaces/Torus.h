@@ -32,14 +32,17 @@ struct Torus : Surface_of_revolution<Torus> {
     return std::tie(surface.radius, surface.tube_radius);
   }
 
-  Meridian_distance meridian(double s, double h) const {
-    const double from_circle = Eigen::Vector2d(s - radius, h).norm();
-    const double length = std::max(from_circle, std::numeric_limits<double>::min());
-    return {from_circle - tube_radius, (s - radius) / length, h / length};
+  template <class Number>
+  Meridian_distance<Number> meridian(const Number& s, const Number& h) const {
+    const Number off_circle = s - radius;
+    const Number from_circle = square_root(off_circle * off_circle + h * h);
+    const Number unit = 1 / at_least(from_circle, std::numeric_limits<double>::min());
+    return {from_circle - tube_radius, off_circle * unit, h * unit};
   }
-  void shape_derivatives(double, double, const Meridian_distance& m, double* row) const {
+  template <class Number>
+  void shape_derivatives(const Number&, const Number&, const Meridian_distance<Number>& m, Number* row) const {
     row[0] = -m.off_axis;
-    row[1] = -1;
+    row[1] = all<Number>(-1);
   }
 
   /// All normals of a surface of revolution meet its axis: their Pluecker coordinates lie in the linear complex of the
