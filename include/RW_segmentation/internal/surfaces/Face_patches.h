@@ -102,6 +102,14 @@ class Face_patches {
     return patch;
   }
 
+  /// The faces of a patch that were reached first, until they have so many vertices: of a neighbourhood, the smaller one.
+  Patch beginning(const Patch& patch, std::size_t vertices) {
+    Patch first;
+    start(first);
+    for (std::size_t i = 0; i < patch.faces.size() && first.vertices.size() < vertices; ++i) add(first, patch.faces[i]);
+    return first;
+  }
+
   /// The free faces that a patch continues into across edges that are not sharp, once for each of these edges.
   std::vector<Index> faces_beside(const Patch& patch) {
     mark(patch);

@@ -48,7 +48,8 @@ class Surface_growing {
         patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
         failures_(mesh.number_of_faces()),
         possible_gain_(mesh.number_of_faces(), unknown_gain),
-        tries_(mesh.number_of_faces(), 0) {
+        tries_(mesh.number_of_faces(), 0),
+        seen_(mesh.number_of_vertices(), 0) {
     regions_.region_of_face.assign(mesh.number_of_faces(), Analytic_regions::none);
     least_cosine_.reserve(tolerance.normal_angle.size());
     for (const double angle : tolerance.normal_angle) least_cosine_.push_back(std::cos(angle));
@@ -162,7 +163,7 @@ class Surface_growing {
     is_in_sheet_ = is_part_of_sheet(about);
     const std::size_t largest = tolerance_.is_noisy() ? 0 : hash_of(about);
     if (tolerance_.is_noisy() || !has_failed(seed, largest, pass.least_gain)) {
-      if (begins_well(best, seed, pass)) return best;
+      if (begins_well(best, seed, about, pass)) return best;
       failures_[seed] = {largest, best.gain};
     }
     if (pass.along_strips) improve(best, seed, patches_.flattest_neighbourhood(seed, sizes.front()), pass.least_gain);
@@ -170,11 +171,12 @@ class Surface_growing {
   }
 
   /// Tries the neighbourhoods of a seed. True if one gains enough so that others need not be tried.
-  bool begins_well(Region& best, Index seed, const Pass& pass) {
+  /// \param about the neighbourhood that the smaller ones are the beginning of
+  bool begins_well(Region& best, Index seed, const Patch& about, const Pass& pass) {
     const bool is_noisy = tolerance_.is_noisy();  // all sizes are tried then
     for (const std::size_t size : first_sizes()) {
       if (size < pass.smallest_start) continue;
-      const Patch start = patches_.neighbourhood(seed, size);
+      const Patch start = size <= size_about() ? patches_.beginning(about, size) : patches_.neighbourhood(seed, size);
       improve(best, seed, start, pass.least_gain);
       if (best.gain >= pass.least_gain && !is_noisy) return true;
       if (start.vertices.size() < size) break;
@@ -306,11 +308,17 @@ class Surface_growing {
 
   /// The free faces on a surface that are connected with the seed, until they have so many vertices.
   void flood(Index seed, const Analytic_surface& surface, double sign, std::size_t most_vertices, Patch& patch) {
+    unseen_ += 2;
     with_type_of(surface, [&](const auto& s) {
+      const auto is_near = [&](Index v) {  // asked for each face about a vertex, and computed once
+        if (seen_[v] < unseen_)
+          seen_[v] = unseen_ + (std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance() ? 1 : 0);
+        return seen_[v] > unseen_;
+      };
       const auto lies_on = [&](Index f) {
         add_work(1);
         for (const Index v : mesh_.corners(f))
-          if (!(std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance())) return false;
+          if (!is_near(v)) return false;
         return normal(f).isZero() || sign * s.normal(mesh_.centroid(f)).dot(normal(f)) > least_cosine_[f];
       };
       patches_.flood(seed, lies_on, most_vertices, patch);
@@ -461,6 +469,8 @@ class Surface_growing {
   std::vector<double> possible_gain_;  // of a region about each face, as far as is known
   std::vector<std::uint32_t> tries_;   // by face: regions with it that gained too little
   std::vector<double> least_cosine_;   // by face, of the angle to its surface
+  std::vector<std::uint32_t> seen_;    // by vertex: `unseen_` if it is off the surface that is flooded, 1 more if on it
+  std::uint32_t unseen_ = 0;           // even, and larger from flood to flood
   Surface_samples start_samples_;      // of the present neighbourhood
   bool is_in_sheet_ = false;           // the present seed
   Patch farthest_;                     // the largest of the regions about it that explained nothing
