@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -70,6 +71,7 @@ class Region_borders {
   bool move_faces(int most_sweeps, const Cost& cost) {
     constexpr Index between_reports = 10000;  // faces, some milliseconds
     constexpr double least_gain = 1e-3;       // of a move, lest rounding errors move faces to and fro
+    constexpr double unknown_cost = std::numeric_limits<double>::infinity();
     std::vector<std::size_t>& region_of_face = regions_.region_of_face;
     bool has_moved = false;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
@@ -78,10 +80,11 @@ class Region_borders {
         if (f % between_reports == 0) progress_(1);
         const std::size_t own = region_of_face[f];
         std::size_t best = own;
-        double least = cost(f, own);
+        double least = unknown_cost;  // within a region nothing is to be compared
         for (const auto& [g, e] : mesh_.graph().neighbours(f)) {
           const std::size_t other = region_of_face[g];
           if (other == none || other == own || other == best || mesh_.is_wall(e)) continue;
+          if (least == unknown_cost) least = cost(f, own);
           const double d = cost(f, other);
           if (d < least - least_gain) {
             least = d;
