@@ -128,6 +128,16 @@ class Face_patches {
     });
   }
 
+  /// Whether the faces of a patch turn by less than an angle against each other, whatever lies about it.
+  bool is_smooth_inside(const Patch& patch, double angle) {
+    mark(patch);
+    return std::all_of(patch.faces.begin(), patch.faces.end(), [&](Index f) {
+      const auto neighbours = mesh_.graph().neighbours(f);
+      return std::none_of(neighbours.begin(), neighbours.end(),
+                          [&](const Dual_graph::Neighbour& n) { return is_marked(n.face) && angle_[n.edge] >= angle; });
+    });
+  }
+
   /// Marks the faces of a patch, until the next patch is marked or collected.
   void mark(const Patch& patch) {
     ++mark_;
