@@ -16,6 +16,7 @@
 #include "meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -192,8 +193,14 @@ TEST(TransferSegments, DoesNotDependOnPlaceAndScaleOfBothMeshes) {
 
 TEST(TransferSegments, ClosestFacesAreThoseOfASearchThroughAll) {
   const Mesh mesh = meshes::surface_mesh(meshes::torus(1, 0.4, 30, 20));
-  const auto triangles = internal::fan_triangles(Dual_mesh_of(mesh));
-  const internal::Triangle_tree tree(triangles);
+  const Dual_mesh_of dual(mesh);
+  std::vector<internal::Fan_triangle> triangles;
+  for (Dual_mesh::Index f = 0; f < dual.number_of_faces(); ++f) {
+    const auto [a, b, c] =
+        std::array{dual.point(dual.corners(f)[0]), dual.point(dual.corners(f)[1]), dual.point(dual.corners(f)[2])};
+    triangles.push_back({a, b - a, c - a, f});
+  }
+  const internal::Triangle_tree tree(dual);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-0.6, 0.6);
   using Kernel = CGAL::Simple_cartesian<double>;

@@ -242,7 +242,7 @@ void Mesh::find_closest_of_left_out() {
   if (halfedges().number_of_faces() == 0) throw std::invalid_argument("no face has three different corners");
   speaker_ = read_.mesh_face;
   const Dual dual(halfedges());
-  const RW::internal::Triangle_tree tree(RW::internal::fan_triangles(dual));
+  const RW::internal::Triangle_tree tree(dual);
   std::visit(
       [&](const auto* corners) {
         for (std::size_t f = 0; f < speaker_.size(); ++f) {

@@ -40,7 +40,7 @@ inline double distance_of_corners(const Halfedge_triangles& mesh, const Patch& p
 /// How far faces are from the mesh.
 class Distance_to_mesh {
  public:
-  Distance_to_mesh(const Dual_mesh& mesh, double scale) : mesh_(mesh), scale_(scale), tree_(fan_triangles(mesh)) {}
+  Distance_to_mesh(const Dual_mesh& mesh, double scale) : mesh_(mesh), scale_(scale), tree_(mesh) {}
 
   /// The largest distance of points of a face, on its edges and on a grid inside it.
   double of_face(const TopoDS_Face& face) const {

@@ -114,7 +114,8 @@ inline std::vector<Dual_mesh::Index> evenly_spread_faces(const Dual_mesh& mesh, 
   double area = area_before;
   const auto samples_up_to = [&](double a) { return std::round(std::min(a / area_per_sample, most_samples)); };
   double samples = samples_up_to(area_before);
-  for (const Fan_triangle& triangle : tree.triangles()) {
+  for (std::size_t i = 0; i < tree.number_of_triangles(); ++i) {
+    const Fan_triangle triangle = tree.triangle(i);
     area += triangle.first_side.cross(triangle.second_side).norm() / 2;
     if (!(area > (samples + 0.5) * area_per_sample)) continue;
     samples = samples_up_to(area);
@@ -129,7 +130,7 @@ RW_SEGMENTATION_INLINE std::vector<double> thickness_of_faces(const Dual_mesh& m
                                                               const Progress& progress) {
   require_cone(sampling.rays, sampling.cone_angle);
   const Ray_cone cone = Ray_cone::even(sampling.rays, sampling.cone_angle);
-  const Triangle_tree tree(fan_triangles(mesh));
+  const Triangle_tree tree(mesh);
   constexpr std::size_t samples_between_reports = 100;
   std::vector<double> thickness(mesh.number_of_faces(), 0.), distances;
   const std::vector<Dual_mesh::Index> faces = evenly_spread_faces(mesh, tree, sampling.samples, 0);
@@ -145,7 +146,7 @@ RW_SEGMENTATION_INLINE std::vector<Thickness_probe> thickness_probes(const Dual_
                                                                      std::size_t samples_of_whole, double area_before) {
   std::vector<Thickness_probe> probes;
   for (const Dual_mesh::Index f :
-       evenly_spread_faces(part, Triangle_tree(fan_triangles(part, number_of_faces)), samples_of_whole, area_before))
+       evenly_spread_faces(part, Triangle_tree(part, number_of_faces), samples_of_whole, area_before))
     probes.push_back({f, part.centroid(f), -part.normal(f)});
   return probes;
 }
@@ -155,7 +156,7 @@ RW_SEGMENTATION_INLINE std::vector<double> probe_exits(const Dual_mesh& part, st
                                                        const Thickness_sampling& sampling) {
   require_cone(sampling.rays, sampling.cone_angle);
   const Ray_cone cone = Ray_cone::even(sampling.rays, sampling.cone_angle);
-  const Triangle_tree tree(fan_triangles(part, number_of_faces));
+  const Triangle_tree tree(part, number_of_faces);
   std::vector<double> exits;
   exits.reserve(probes.size() * sampling.rays);
   for (const Thickness_probe& probe : probes)
@@ -171,7 +172,7 @@ RW_SEGMENTATION_INLINE double thickness_by_exits(std::vector<double> exits) {
 /// The shape diameter of every face; 0 where no ray leaves the solid and where a face has no area.
 template <class ConcurrencyTag>
 std::vector<double> shape_diameters(const Dual_mesh& mesh, const Ray_cone& cone, const Progress& progress) {
-  const Triangle_tree tree(fan_triangles(mesh));
+  const Triangle_tree tree(mesh);
   std::vector<double> thickness(mesh.number_of_faces(), 0.);
   const auto make_worker = [&] {
     return [&, distances = std::vector<double>(), workspace = std::vector<double>()](std::size_t i) mutable {

@@ -15,27 +15,15 @@
 
 namespace RW_segmentation::internal {
 
-/// The triangles of a mesh in the coordinates of another one's unit box.
-inline std::vector<Fan_triangle> triangles_in_frame(const Dual_mesh& mesh, const Dual_mesh& frame) {
-  std::vector<Fan_triangle> triangles = fan_triangles(mesh);
-  const double scale = mesh.unit() / frame.unit();
-  const Eigen::Vector3d shift = (mesh.origin() - frame.origin()) / frame.unit();
-  for (Fan_triangle& triangle : triangles) {
-    triangle.corner = scale * triangle.corner + shift;
-    triangle.first_side *= scale;
-    triangle.second_side *= scale;
-  }
-  return triangles;
-}
-
 /// For each face the one of the reduced mesh that is closest to its centroid and looks the same way; the closest of all
 /// where none does.
 inline std::vector<Dual_mesh::Index> closest_faces(const Dual_mesh& mesh, const Triangle_tree& reduced) {
   std::vector<Dual_mesh::Index> closest(mesh.number_of_faces());
   parallel_stretches(closest.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      auto found = reduced.closest_face(mesh.centroids()[f], mesh.normals()[f]);
-      if (!found) found = reduced.closest_face(mesh.centroids()[f], Eigen::Vector3d::Zero());
+      const Eigen::Vector3d centroid = mesh.centroid(static_cast<Dual_mesh::Index>(f));
+      auto found = reduced.closest_face(centroid, mesh.normals()[f]);
+      if (!found) found = reduced.closest_face(centroid, Eigen::Vector3d::Zero());
       if (!found) throw std::invalid_argument("the reduced mesh has no face with an area");
       closest[f] = *found;
     }
@@ -64,7 +52,7 @@ RW_SEGMENTATION_INLINE std::vector<std::size_t> transferred(const Dual_mesh& red
                                                             const Progress& progress) {
   std::vector<std::size_t> reduced_labels;  // any number may be an id
   const std::vector<std::size_t> id_of_label = rank_labels(reduced_ids, reduced_labels);
-  const Triangle_tree tree(triangles_in_frame(reduced, mesh));
+  const Triangle_tree tree = Triangle_tree::in_frame(reduced, mesh);
   std::vector<std::size_t> labels;
   labels.reserve(mesh.number_of_faces());
   for (const auto closest : closest_faces(mesh, tree)) labels.push_back(reduced_labels[closest]);

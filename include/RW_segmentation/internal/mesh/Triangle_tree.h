@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,24 +26,6 @@ struct Fan_triangle {
   Eigen::Vector3d corner, first_side, second_side;
   Dual_graph::Index face;
 };
-
-/// The first faces of a mesh as triangles, those of each face fanned out from its first corner.
-inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh, std::size_t number_of_faces) {
-  std::vector<Fan_triangle> triangles;
-  triangles.reserve(number_of_faces);
-  for (Dual_mesh::Index f = 0; f < number_of_faces; ++f) {
-    const auto corners = mesh.corners(f);
-    const Eigen::Vector3d& apex = mesh.point(corners[0]);
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-      triangles.push_back({apex, mesh.point(corners[k]) - apex, mesh.point(corners[k + 1]) - apex, f});
-  }
-  return triangles;
-}
-
-/// All faces of a mesh as triangles.
-inline std::vector<Fan_triangle> fan_triangles(const Dual_mesh& mesh) {
-  return fan_triangles(mesh, mesh.number_of_faces());
-}
 
 /// An axis-parallel box in single precision, empty at first.
 struct Float_box {
@@ -75,22 +58,27 @@ class Triangle_tree {
  public:
   using Index = Dual_graph::Index;
 
-  /// Complexity: O(n log n), 32 bytes a triangle besides the triangles themselves.
-  explicit Triangle_tree(std::vector<Fan_triangle> triangles) : triangles_(std::move(triangles)) {
-    sort_along_curve();
-    while (leaves_ * triangles_per_leaf < triangles_.size()) leaves_ *= 2;
-    boxes_.resize(2 * leaves_);
-    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
-      for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i)
-        extend_by_triangle(boxes_[leaves_ + leaf], triangles_[i]);
-    for (std::size_t node = leaves_; node-- > 1;) {
-      boxes_[node] = boxes_[2 * node];
-      boxes_[node].extend(boxes_[2 * node + 1]);
-    }
+  /// The first faces of a mesh, those of each face fanned out from its first corner.
+  /// Complexity: O(n log n), 40 bytes a triangle.
+  Triangle_tree(const Dual_mesh& mesh, std::size_t number_of_faces) : mesh_(mesh) { build(number_of_faces); }
+
+  /// All faces of a mesh.
+  explicit Triangle_tree(const Dual_mesh& mesh) : Triangle_tree(mesh, mesh.number_of_faces()) {}
+
+  /// All faces of a mesh, in the coordinates of another one's unit box.
+  static Triangle_tree in_frame(const Dual_mesh& mesh, const Dual_mesh& frame) {
+    Triangle_tree tree;
+    tree.mesh_ = mesh;
+    tree.scale_ = mesh.unit() / frame.unit();
+    tree.shift_ = (mesh.origin() - frame.origin()) / frame.unit();
+    tree.build(mesh.number_of_faces());
+    return tree;
   }
 
+  std::size_t number_of_triangles() const { return triangles_.size(); }
+
   /// Along the Morton curve, in which neighbours in the order are mostly neighbours in space.
-  const std::vector<Fan_triangle>& triangles() const { return triangles_; }
+  Fan_triangle triangle(std::size_t i) const { return triangle(triangles_[i]); }
 
   /// The distance at which a ray first leaves the solid through a triangle that is not of the face `start`; infinity
   /// if it does not. Triangles that it meets from outside do not stop it.
@@ -104,6 +92,34 @@ class Triangle_tree {
  private:
   static constexpr std::size_t triangles_per_leaf = 4;
 
+  /// A triangle by its vertices: a fifth of the memory of their coordinates, which are read where a ray comes near.
+  struct Corners {
+    std::array<Index, 3> vertices;
+    Index face;
+  };
+
+  Triangle_tree() = default;
+
+  void build(std::size_t number_of_faces) {
+    points_ = mesh_.points().data();
+    sort_along_curve(number_of_faces);
+    while (leaves_ * triangles_per_leaf < triangles_.size()) leaves_ *= 2;
+    boxes_.resize(2 * leaves_);
+    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+      for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i)
+        extend_by_triangle(boxes_[leaves_ + leaf], triangle(i));
+    for (std::size_t node = leaves_; node-- > 1;) {
+      boxes_[node] = boxes_[2 * node];
+      boxes_[node].extend(boxes_[2 * node + 1]);
+    }
+  }
+
+  Fan_triangle triangle(const Corners& corners) const {
+    const Eigen::Vector3d& apex = points_[corners.vertices[0]];
+    return {scale_ * apex + shift_, scale_ * (points_[corners.vertices[1]] - apex),
+            scale_ * (points_[corners.vertices[2]] - apex), corners.face};
+  }
+
   std::size_t leaf_begin(std::size_t leaf) const { return leaf * triangles_.size() / leaves_; }
 
   /// By more than the triangle: by the rounding of its coordinates, which lie between -1 and 1.
@@ -114,14 +130,18 @@ class Triangle_tree {
     box.extend(triangle.corner + triangle.second_side, margin);
   }
 
-  void sort_along_curve();
+  void sort_along_curve(std::size_t number_of_faces);
 
-  std::vector<Fan_triangle> triangles_;
+  Dual_mesh mesh_;
+  const Eigen::Vector3d* points_ = nullptr;  // of the mesh, all copies of which share them
+  double scale_ = 1;
+  Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();
+  std::vector<Corners> triangles_;
   std::size_t leaves_ = 1;
   std::vector<Float_box> boxes_;  // of node 1, the root; children of node i are 2 i and 2 i + 1
 };
 
-inline void Triangle_tree::sort_along_curve() {
+inline void Triangle_tree::sort_along_curve(std::size_t number_of_faces) {
   constexpr double cells = 1 << 20;          // a side of the box from -1 to 1
   const auto spread = [](std::uint64_t x) {  // writes two zeros before each of 20 bits
     x = (x | x << 32) & 0x1f00000000ffff;
@@ -130,21 +150,31 @@ inline void Triangle_tree::sort_along_curve() {
     x = (x | x << 4) & 0x10c30c30c30c30c3;
     return (x | x << 2) & 0x1249249249249249;
   };
-  std::vector<std::pair<std::uint64_t, Index>> order;
-  order.reserve(triangles_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const Fan_triangle& t = triangles_[i];
-    const Eigen::Vector3d middle = t.corner + (t.first_side + t.second_side) / 3;
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      code |= spread(static_cast<std::uint64_t>(std::clamp((middle[axis] + 1) / 2 * cells, 0., cells - 1))) << axis;
-    order.emplace_back(code, static_cast<Index>(i));
+  struct Place {
+    std::uint64_t code;  // of the middle, along the curve
+    Index face, corner;  // the second one of the triangle, counted in the face
+  };
+  std::vector<Place> order;
+  order.reserve(number_of_faces);
+  for (Index f = 0; f < number_of_faces; ++f) {
+    const auto corners = mesh_.corners(f);
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+      const Fan_triangle t = triangle(Corners{{corners[0], corners[k], corners[k + 1]}, f});
+      const Eigen::Vector3d middle = t.corner + (t.first_side + t.second_side) / 3;
+      std::uint64_t code = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        code |= spread(static_cast<std::uint64_t>(std::clamp((middle[axis] + 1) / 2 * cells, 0., cells - 1))) << axis;
+      order.push_back({code, f, static_cast<Index>(k)});
+    }
   }
-  std::sort(order.begin(), order.end());
-  std::vector<Fan_triangle> sorted;
-  sorted.reserve(triangles_.size());
-  for (const auto& [code, i] : order) sorted.push_back(triangles_[i]);
-  triangles_ = std::move(sorted);
+  std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.code, a.face, a.corner) < std::tie(b.code, b.face, b.corner);
+  });
+  triangles_.reserve(order.size());
+  for (const auto& [code, f, k] : order) {
+    const auto corners = mesh_.corners(f);
+    triangles_.push_back({{corners[0], corners[k], corners[k + std::size_t(1)]}, f});
+  }
 }
 
 inline double Triangle_tree::exit_distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -189,7 +219,7 @@ inline double Triangle_tree::exit_distance(const Eigen::Vector3d& origin, const 
     }
     for (std::size_t i = leaf_begin(node - leaves_); i < leaf_begin(node - leaves_ + 1); ++i) {
       // Moeller and Trumbore; the determinant is negative where the ray leaves.
-      const auto& [corner, first_side, second_side, face] = triangles_[i];
+      const auto [corner, first_side, second_side, face] = triangle(i);
       const Eigen::Vector3d p = direction.cross(second_side);
       const double determinant = first_side.dot(p);
       if (!(determinant < 0) || face == start) continue;

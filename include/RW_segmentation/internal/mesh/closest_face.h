@@ -58,7 +58,7 @@ inline std::optional<Dual_graph::Index> Triangle_tree::closest_face(const Eigen:
       continue;
     }
     for (std::size_t i = leaf_begin(node - leaves_); i < leaf_begin(node - leaves_ + 1); ++i) {
-      const auto& [corner, first_side, second_side, face] = triangles_[i];
+      const auto [corner, first_side, second_side, face] = triangle(i);
       const Eigen::Vector3d area_vector = first_side.cross(second_side);
       if (area_vector.isZero(0) || (!direction.isZero(0) && !(area_vector.dot(direction) > 0))) continue;
       const double distance =
