@@ -155,12 +155,11 @@ Solution solution(const meshes::Shape& shape, double radius, double tolerance) {
   const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
   const Dual_mesh_of dual(mesh);
   Solution result;
-  Normals numbered = dual.normals();
-  RW_segmentation::internal::Face_diffusion(dual, radius * radius * dual.total_area())
-      .solve(dual.normals(), numbered, tolerance, RW_segmentation::Progress([&](double) {
-               ++result.iterations;
-               return true;
-             }));
+  const Normals numbered = RW_segmentation::internal::Face_diffusion(dual, radius * radius * dual.total_area())
+                               .solve(dual.normals(), dual.normals(), tolerance, RW_segmentation::Progress([&](double) {
+                                        ++result.iterations;
+                                        return true;
+                                      }));
   result.vectors.resize(numbered.size());
   for (std::uint32_t f = 0; f < numbered.size(); ++f) result.vectors[dual.place(f)] = numbered[f];
   return result;
@@ -280,8 +279,7 @@ TEST(Smoothed_face_normals, ComeFromASolverThatKeepsItsToleranceHoweverFarItDiff
       for (std::uint32_t f = 0; f < n * n; ++f) before[f] = waves.before[dual.place(f)];
       RW_segmentation::internal::Face_diffusion diffusion(dual, radius * radius * dual.total_area());
       for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-        Normals found = before;
-        diffusion.solve(before, found, tolerance, RW_segmentation::Progress());
+        const Normals found = diffusion.solve(before, before, tolerance, RW_segmentation::Progress());
         double sum = 0;
         for (std::uint32_t f = 0; f < n * n; ++f) {
           const Eigen::Vector3d& expected = waves.after[dual.place(f)];

@@ -42,25 +42,28 @@ class Face_diffusion {
   /// Of the faces and of aggregates of them. Each level has half as many nodes as the one before or less.
   std::size_t number_of_levels() const { return levels_.size(); }
 
-  /// Improves `x` until the root of the mean square over the faces of its error, relative to the length of each vector,
-  /// is below `tolerance`, or as small as single precision makes it.
+  /// Corrects `start`, which may be `x0` itself, until the root of the mean square over the faces of its error, relative
+  /// to the length of each vector, is below `tolerance`, or as small as single precision makes it.
   /// \throws Cancelled
-  void solve(const std::vector<Eigen::Vector3d>& x0, std::vector<Eigen::Vector3d>& x, double tolerance,
-             const Progress& progress) {
+  std::vector<Eigen::Vector3d> solve(const std::vector<Eigen::Vector3d>& x0, const std::vector<Eigen::Vector3d>& start,
+                                     double tolerance, const Progress& progress) {
     constexpr int longest = 1000, longest_stall = 200;  // iterations
     // An error over what a cycle would change: up to .65 on a hand of 2 to 612 thousand faces, 2.3 on tubes of squares where
     // vectors are averaged over up to a tenth of the root of the area, and all waves are smooth.
     constexpr double overlooked = 2.5;
-    const std::size_t n = x.size();
+    const std::size_t n = start.size();
     Level& level = levels_.front();
     Block& residual = level.right;
-    const Block& preconditioned = level.solution;
-    set_residual(x0, x, level);
+    Block& preconditioned = level.solution;
+    residual.resize(n);
+    set_residual(x0, start, level);
+    std::vector<Eigen::Vector3d> zero;
     if (error_by_rounding() > tolerance) {  // of differences across stiff links; zero has none
-      std::fill(x.begin(), x.end(), Eigen::Vector3d::Zero());
-      set_residual(x0, x, level);
+      zero.assign(n, Eigen::Vector3d::Zero());
+      set_residual(x0, zero, level);
     }
-    Block correction(n, Vector::Zero()), direction(n, Vector::Zero()), image(n);
+    const std::vector<Eigen::Vector3d>& x = zero.empty() ? start : zero;
+    Block correction(n, Vector::Zero()), direction(n, Vector::Zero());
     Sums previous = {1, 1, 1};
     double first = 0, least = std::numeric_limits<double>::infinity();
     int last_gain = 0;
@@ -82,6 +85,7 @@ class Face_diffusion {
         direction[i] = product(beta, direction[i]);
         direction[i] += preconditioned[i];
       }
+      Block& image = preconditioned;  // which the next cycle makes anew
       apply(level, direction, image);
       const Vector alpha = quotient(energy, dot(direction, image), n);
       for (std::size_t i = 0; i < n; ++i) {
@@ -90,10 +94,16 @@ class Face_diffusion {
       }
       previous = energy;
     }
+    Block().swap(direction);  // The result takes their place.
+    Block().swap(residual);
+    std::vector<Eigen::Vector3d> result;
+    result.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       correction[i] += preconditioned[i];
-      for (Eigen::Index c = 0; c < 3; ++c) x[i][c] += static_cast<double>(correction[i][c]);
+      result.push_back(x[i]);
+      for (Eigen::Index c = 0; c < 3; ++c) result.back()[c] += static_cast<double>(correction[i][c]);
     }
+    return result;
   }
 
  private:
