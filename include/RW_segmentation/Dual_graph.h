@@ -29,7 +29,7 @@ namespace RW_segmentation {
 /// Models Boost.Graph's `VertexListGraph` and `IncidenceGraph`, so that its Dijkstra runs on it; a weight map has
 /// `Arc` as its key.
 ///
-/// Memory: 8 bytes a face and 24 bytes an edge.
+/// Memory: 4 bytes a face and 24 bytes an edge.
 class Dual_graph {
  public:
   /// Numbers of faces and of edges.
@@ -84,7 +84,7 @@ class Dual_graph {
     }
     for (std::size_t f = 0; f < number_of_faces; ++f) row_[f + 1] += row_[f];
     neighbours_.resize(2 * ends_.size());
-    std::vector<std::size_t> next(row_.begin(), row_.end() - 1);
+    std::vector<Index> next(row_.begin(), row_.end() - 1);
     for (std::size_t e = 0; e < ends_.size(); ++e) {
       const auto [f, g] = ends_[e];
       neighbours_[next[f]++] = {g, static_cast<Index>(e)};
@@ -106,7 +106,7 @@ class Dual_graph {
   const std::array<Index, 2>& faces_of(Index edge) const { return ends_[edge]; }
 
  private:
-  std::vector<std::size_t> row_ = {0};
+  std::vector<Index> row_ = {0};
   std::vector<Neighbour> neighbours_;
   std::vector<std::array<Index, 2>> ends_;
 };
