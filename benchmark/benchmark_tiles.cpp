@@ -60,7 +60,7 @@ Mesh read_subdivided(const std::string& name, std::size_t faces) {
 /// are enough.
 Labels cut_by_grid(const Dual_mesh_of<Mesh>& mesh, std::size_t tiles) {
   Eigen::AlignedBox3d box;
-  for (const auto& c : mesh.centroids()) box.extend(c);
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) box.extend(mesh.centroid(f));
   Eigen::Array3d cells = Eigen::Array3d::Ones();
   while (cells.prod() < static_cast<double>(tiles)) {
     Eigen::Index longest = 0;

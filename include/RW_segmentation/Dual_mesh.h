@@ -88,8 +88,6 @@ class Dual_mesh {
   /// By vertex.
   const std::vector<Eigen::Vector3d>& points() const { return *points_; }
 
-  /// By face: the mean of the corners.
-  const std::vector<Eigen::Vector3d>& centroids() const { return geometry_->centroid; }
   /// By face: the outward normal of unit length, zero for a face without area.
   const std::vector<Eigen::Vector3d>& normals() const { return geometry_->normal; }
   /// By face: the normal of the shape that the mesh stands for, as `smoothed_shape()` sees it; the face's own otherwise.
@@ -98,8 +96,8 @@ class Dual_mesh {
   const std::vector<double>& areas() const { return geometry_->area; }
   /// By edge.
   const std::vector<double>& edge_lengths() const { return geometry_->edge_length; }
-  /// See `centroids()`.
-  const Eigen::Vector3d& centroid(Index face) const { return geometry_->centroid[face]; }
+  /// The mean of the corners of a face.
+  Eigen::Vector3d centroid(Index face) const { return internal::centroid_of(*points_, corners(face)); }
   /// See `normals()`.
   const Eigen::Vector3d& normal(Index face) const { return geometry_->normal[face]; }
   /// The area of a face.

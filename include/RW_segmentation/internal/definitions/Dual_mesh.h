@@ -35,24 +35,21 @@ RW_SEGMENTATION_INLINE Unit_box::Unit_box(const std::vector<Eigen::Vector3d>& po
   rounding = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * (1 / unit));
 }
 
-/// Sets the centroid, the normal and the area of a face.
+/// Sets the normal and the area of a face.
 inline void measure_face(Face_geometry& geometry, std::size_t f, const std::vector<Eigen::Vector3d>& point,
                          const Face_corners::Range& corners, double rounding) {
   const Eigen::Vector3d& apex = point[corners[0]];
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), area_vector = Eigen::Vector3d::Zero();
-  Eigen::Vector3d previous = sum;  // relative to the apex
+  Eigen::Vector3d area_vector = Eigen::Vector3d::Zero(), previous = area_vector;  // relative to the apex
   double extent = 0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     const Eigen::Vector3d corner = point[corners[k]] - apex;
     area_vector += previous.cross(corner) / 2;
-    sum += corner;
     extent = std::max(extent, corner.norm());
     previous = corner;
   }
   geometry.area[f] = area_vector.norm();
   // A face that is no higher than its corners are exact has no direction.
   const bool degenerate = !(geometry.area[f] > 4 * rounding * extent);
-  geometry.centroid[f] = apex + sum / static_cast<double>(corners.size());
   geometry.normal[f] = degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / geometry.area[f]);
 }
 
@@ -60,11 +57,8 @@ RW_SEGMENTATION_INLINE Face_geometry::Face_geometry(const std::vector<Eigen::Vec
                                                     const Face_corners& corners,
                                                     const std::vector<std::array<std::uint32_t, 2>>& edge_ends,
                                                     double rounding)
-    : centroid(corners.number_of_faces()),
-      normal(corners.number_of_faces()),
-      area(corners.number_of_faces()),
-      edge_length(edge_ends.size()) {
-  parallel_stretches(centroid.size(), [&](std::size_t begin, std::size_t end) {
+    : normal(corners.number_of_faces()), area(corners.number_of_faces()), edge_length(edge_ends.size()) {
+  parallel_stretches(normal.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
       measure_face(*this, f, point, corners[static_cast<std::uint32_t>(f)], rounding);
   });

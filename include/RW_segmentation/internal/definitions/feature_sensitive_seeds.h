@@ -16,11 +16,12 @@ namespace internal {
 /// The face whose centroid is farthest from the centroid of the surface.
 inline Dual_mesh::Index face_farthest_from_centroid(const Dual_mesh& mesh) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) moment += mesh.areas()[f] * mesh.centroids()[f];
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) moment += mesh.area(f) * mesh.centroid(f);
   const Eigen::Vector3d centroid = mesh.total_area() > 0 ? moment / mesh.total_area() : moment;
   std::vector<double> distance;
   distance.reserve(mesh.number_of_faces());
-  for (const Eigen::Vector3d& x : mesh.centroids()) distance.push_back((x - centroid).norm());
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f)
+    distance.push_back((mesh.centroid(f) - centroid).norm());
   return first_greatest(distance);
 }
 
@@ -29,10 +30,10 @@ inline Dual_mesh::Index face_farthest_from_centroid(const Dual_mesh& mesh) {
 RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> Farthest_point_sampling::operator()(
     const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& given, std::size_t count,
     const Progress& progress) const {
-  internal::Distances_to_sources distance(mesh.graph(),
-                                          internal::Feature_sensitive_metric(mesh, normal_weight_).edge_lengths());
   std::vector<Dual_mesh::Index> seeds;
   if (given.empty()) seeds.push_back(internal::face_farthest_from_centroid(mesh));
+  internal::Distances_to_sources distance(mesh.graph(),
+                                          internal::Feature_sensitive_metric(mesh, normal_weight_).edge_lengths());
   for (const auto face : given) distance.add_source(face);
   return internal::farthest_points(distance, std::move(seeds), count, progress);
 }
