@@ -67,6 +67,7 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
     difference = differences_by(policies.difference, shape, progress.part(0.25, 0.3));  // Eq. 4-5, 7-8
     conductance = conductances(shape, difference, policies.sigma, policies.cap);        // Eq. 6
     component = Components(shape.graph(), [&](auto edge) { return conductance[edge] > 0; });
+    report.components = component.count;
     clock.note("conductances");
   };
   // The order of elimination depends on none of these, nor the merge cost on seeds and walk. Of what is done at the same
@@ -98,11 +99,15 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
     clock.note("other seedings");
   };
   std::optional<Merge_cost_by<decltype(policies.merge_cost), Mesh>> cost;
-  at_the_same_time<ConcurrencyTag>([&] { cost.emplace(merge_cost_by(policies.merge_cost, shape)); }, walk);
+  const auto walk_and_free = [&] {
+    walk();
+    std::vector<double>().swap(conductance);
+    component = {};
+  };
+  at_the_same_time<ConcurrencyTag>([&] { cost.emplace(merge_cost_by(policies.merge_cost, shape)); }, walk_and_free);
   clock.note("thickness");
 
   report.seeds = seeds.size();
-  report.components = component.count;
   report.clusters = fragments.clusters;
   report.degenerate_faces = shape.number_of_degenerate_faces();
   report.island_faces = fragments.island_faces;

@@ -37,9 +37,10 @@ RW_SEGMENTATION_INLINE Fragments walk_fragments(const Walk_network& network, Any
 RW_SEGMENTATION_INLINE Fragments walk_fragments_over_clusters(
     const Walk_network& network, const std::vector<double>& edge_length, const std::vector<Dual_graph::Index>& seeds,
     const Walk_reduction& reduction, const std::function<Any_walk_solver()>& make_solver, const Progress& progress) {
-  const Face_clusters clusters =
+  Face_clusters clusters =
       clusters_around(seeds, network.graph, network.conductances, edge_length, reduction.largest_difference,
                       cluster_steps(network.graph.number_of_faces(), reduction));
+  std::vector<double>().swap(clusters.resistance);
   progress(0.2);
   Components component;
   component.count = network.component.count;

@@ -32,8 +32,12 @@ inline Dual_graph parallel_ways(std::size_t number_of_clusters, std::vector<Clus
                                 std::vector<double>& conductances) {
   std::stable_sort(ways.begin(), ways.end(),
                    [](const Cluster_way& a, const Cluster_way& b) { return a.clusters < b.clusters; });
+  std::size_t edges = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) edges += i == 0 || ways[i].clusters != ways[i - 1].clusters;
   std::vector<std::array<Dual_graph::Index, 2>> ends;
+  ends.reserve(edges);
   conductances.clear();
+  conductances.reserve(edges);
   for (const auto& [clusters, conductance] : ways) {
     if (ends.empty() || ends.back() != clusters) {
       ends.push_back(clusters);
