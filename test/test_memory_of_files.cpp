@@ -5,47 +5,15 @@
 #include "../examples/mesh_files.h"
 
 #include <gtest/gtest.h>
+#include "counted_memory.h"
 
-#include <atomic>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <new>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace {
-
-std::atomic<std::size_t> in_use = 0, most_in_use = 0;            // pieces of a file are read by several threads
-constexpr std::size_t size_of_note = alignof(std::max_align_t);  // before each block: its size
-
-void* allocate(std::size_t size) {
-  auto* const block = static_cast<char*>(std::malloc(size + size_of_note));
-  if (!block) throw std::bad_alloc();
-  *reinterpret_cast<std::size_t*>(block) = size;
-  const std::size_t now = in_use += size;
-  for (std::size_t most = most_in_use; most < now && !most_in_use.compare_exchange_weak(most, now);) continue;
-  return block + size_of_note;
-}
-
-void release(void* memory) {
-  if (!memory) return;
-  char* const block = static_cast<char*>(memory) - size_of_note;
-  in_use -= *reinterpret_cast<std::size_t*>(block);
-  std::free(block);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete[](void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
 
 namespace {
 
@@ -68,13 +36,12 @@ double bytes_for_each(const std::string& name, const std::string& content) {
       std::filesystem::temp_directory_path() / (std::to_string(std::random_device()()) + name);
   std::ofstream(path, std::ios::binary) << content;
   const std::string file = path.string();
-  const std::size_t before = in_use;
-  most_in_use = before;
-  try {
-    mesh_files::read_mesh(file);
-  } catch (const mesh_files::Unreadable_file&) {
-  }
-  const std::size_t taken = most_in_use - before;
+  const std::size_t taken = counted_memory::peak_of([&] {
+    try {
+      mesh_files::read_mesh(file);
+    } catch (const mesh_files::Unreadable_file&) {
+    }
+  });
   std::filesystem::remove(path);
   return static_cast<double>(taken) / static_cast<double>(content.size());
 }
