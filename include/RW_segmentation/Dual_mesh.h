@@ -46,7 +46,7 @@ namespace RW_segmentation {
 /// Faces, edges and vertices are numbered from 0. Edges are those between two different faces; the mesh's border is none.
 /// Walls are edges that no stage crosses: no seed distance, walk, merge or surface.
 ///
-/// Memory: about 200 bytes a triangle.
+/// Memory: about 120 bytes a triangle.
 class Dual_mesh {
  public:
   /// Numbers of faces, edges and vertices.
