@@ -43,8 +43,8 @@ struct Arguments {
   std::size_t threads = 1;
 };
 
-constexpr std::array stage_names = {"mesh",  "normals", "conductances", "ordering",
-                                    "seeds", "walk",    "thickness",    "merging"};
+constexpr std::array stage_names = {"mesh", "normals",        "conductances", "ordering", "seeds",
+                                    "walk", "other seedings", "thickness",    "merging"};
 
 // ---- Meshes ----
 

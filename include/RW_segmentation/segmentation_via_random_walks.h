@@ -94,7 +94,7 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
                            : walk_fragments(network, std::move(solver), seeds, part);
     clock.note("walk");
     if (policies.seedings == 1 || seeds.size() == given.size()) return;
-    refinement = refine_by_further_seedings(shape, network, {seeds, given.size(), fragments.of_face},
+    refinement = refine_by_further_seedings(shape, network, {seeds, given.size(), fragments.of_face, is_reduced},
                                             policies.seedings - 1, new_solver, progress.part(0.8, 0.9));
     clock.note("other seedings");
   };

@@ -64,7 +64,9 @@ inline Face_clusters clusters_in_fragments(const Dual_mesh& shape, const Walk_ne
     is_crossed.push_back(first.fragment_of_face[f] == first.fragment_of_face[g] && conductance > 0 &&
                          conductance >= least * shape.edge_length(e));
   }
-  return {shape.graph(), network.conductances, is_crossed, steps, {}, by_distance_from(first.seeds.front(), shape)};
+  // In their own order, faces that are looked at one after the other lie close in memory.
+  const auto order = first.is_reduced ? std::vector<Dual_mesh::Index>() : by_distance_from(first.seeds.front(), shape);
+  return {shape.graph(), network.conductances, is_crossed, steps, {}, order};
 }
 
 /// The lengths of the ways between clusters; infinite where no walk leads.

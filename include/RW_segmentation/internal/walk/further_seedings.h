@@ -20,14 +20,16 @@ struct First_seeding {
   const std::vector<Dual_mesh::Index>& seeds;        ///< those that were given come first
   std::size_t given;                                 ///< how many of them these are
   const std::vector<std::size_t>& fragment_of_face;  ///< numbered from 0
+  bool is_reduced;                                   ///< whether its walk ran over clusters of faces
 };
 
 /// The common refinement of the fragments of a first seeding and further ones. Each has as many seeds as the first one, and
 /// begins at those that are given and the last one of the seeding before.
 ///
 /// What is sought is where other seeds would have parted the mesh, and that a coarse walk tells as well: these walks run over
-/// about a thousand clusters of faces, which all of them share. A cluster lies in one fragment of the first seeding. Nothing
-/// depends on the order of the faces but where two of them are equally far from the first seed.
+/// about a thousand clusters of faces, which all of them share. A cluster lies in one fragment of the first seeding. Unless
+/// the first walk was reduced, and so depends on the order of the faces, nothing does but where two faces are equally far from
+/// the first seed.
 /// \param shape the mesh, with the normals that seeds see
 /// \param network that of its faces
 /// \param first with a seed at least that is not given
