@@ -181,6 +181,15 @@ TEST(RegularSurfaces, AreCoplanarCoaxialPerpendicularAndOfOneRadiusWithinErrors)
     EXPECT_EQ(number_of(regular, regularity), 1U) << name_of(regularity);
 }
 
+TEST(RegularSurfaces, MeetInTheMiddleWhereErrorsAreRounding) {
+  Surfaces surfaces = {plane({0, 0, 0}, {0, 0, 1}), plane({3, 0, 0.08}, {0, 0, 1})};
+  surfaces[0].errors.point = 1e-17;
+  surfaces[1].errors.point = 3e-17;
+  const Regular_surfaces regular = regular_surfaces(surfaces, {0.1, 0.01, 3});
+  for (const Analytic_surface& surface : regular.surfaces) EXPECT_NEAR(surface.point.z(), 0.04, 1e-12);
+  EXPECT_EQ(number_of(regular, Regularity::coplanar), 1u);
+}
+
 TEST(RegularSurfaces, OfUnknownErrorsAreLeftAlone) {
   Surfaces surfaces = {plane({0, 0, 0}, {0, 0, 1}), plane({0, 0, 1}, {0.1, 0, 1}), Analytic_surface()};
   for (Analytic_surface& surface : surfaces)

@@ -29,11 +29,11 @@ class Surface_regularities {
   Surface_regularities(const std::vector<Analytic_surface>& surfaces, const Regularity_tolerance& tolerance)
       : tolerance_(tolerance) {
     result_.surfaces = surfaces;
-    tolerance_.angle = std::max(tolerance_.angle, exactness_);
     for (const Analytic_surface& s : surfaces)
       if (s.type != Surface_type::free_form)
-        tolerance_.length =
-            std::max({tolerance_.length, exactness_ * s.point.cwiseAbs().maxCoeff(), exactness_ * s.radius});
+        exact_length_ = std::max({exact_length_, exactness_ * s.point.cwiseAbs().maxCoeff(), exactness_ * s.radius});
+    tolerance_.length = std::max(tolerance_.length, exact_length_);
+    tolerance_.angle = std::max(tolerance_.angle, exactness_);
   }
 
   Regular_surfaces result() {
@@ -69,9 +69,12 @@ class Surface_regularities {
   static constexpr double largest_share_ = 0.01;  // of a radius
 
   static double known(double error) { return std::isfinite(error) ? error : 0; }
-  static double weight(double error) {
+  /// \param exact the error below which numbers are as good as exact: smaller errors are rounding
+  static double weight(double error, double exact) {
     constexpr double least = 1e-30, none = 1e-60;  // whose ratio is a number, and so is its square
-    return std::isfinite(error) ? 1 / std::max(error * error, least * least) : none;
+    if (!std::isfinite(error)) return none;
+    const double counted = std::max({error, exact, least});
+    return 1 / (counted * counted);
   }
   double excused(double a, double b, double most) const {
     return std::min(most, tolerance_.standard_errors * std::hypot(known(a), known(b)));
@@ -109,8 +112,8 @@ class Surface_regularities {
     const auto mean = [&](const Numbers& group) -> Vector {
       Vector sum = Vector::Zero();
       for (const std::size_t i : group)
-        sum += (before[i].dot(before[group.front()]) < 0 ? -1 : 1) * weight(turn_error(numbers[i])) /
-               weight(turn_error(numbers[group.front()])) * before[i];
+        sum += (before[i].dot(before[group.front()]) < 0 ? -1 : 1) * weight(turn_error(numbers[i]), exactness_) /
+               weight(turn_error(numbers[group.front()]), exactness_) * before[i];
       return sum.normalized();
     };
     for (const Numbers& group : join_near_values(directions, is_near, mean)) {
@@ -248,7 +251,8 @@ class Surface_regularities {
                                 std::numeric_limits<double>::infinity());
       };
       const auto mean = [&](const Numbers& group) {
-        return mean_of(before, group, [&](std::size_t i) { return result_.surfaces[planes[i]].errors.point; });
+        return mean_of(before, group, exact_length_,
+                       [&](std::size_t i) { return result_.surfaces[planes[i]].errors.point; });
       };
       for (const Numbers& group : join_near_values(offsets, is_near, mean))
         for (std::size_t k = 1; k < group.size(); ++k)
@@ -275,7 +279,8 @@ class Surface_regularities {
                                 std::numeric_limits<double>::infinity());
       };
       const auto mean = [&](const Numbers& group) {
-        return mean_of(before, group, [&](std::size_t i) { return result_.surfaces[axes[i]].errors.point; });
+        return mean_of(before, group, exact_length_,
+                       [&](std::size_t i) { return result_.surfaces[axes[i]].errors.point; });
       };
       for (const Numbers& group : join_near_values(feet, is_near, mean))
         for (std::size_t k = 1; k < group.size(); ++k)
@@ -284,14 +289,14 @@ class Surface_regularities {
     }
   }
 
-  /// The mean of a group, weighted by the errors.
+  /// The mean of a group, weighted by the errors where these are more than `exact`.
   template <class Value, class Error>
-  static Value mean_of(const std::vector<Value>& values, const Numbers& group, const Error& error) {
+  static Value mean_of(const std::vector<Value>& values, const Numbers& group, double exact, const Error& error) {
     const Value& origin = values[group.front()];  // lest large values cancel
-    Value sum = origin - origin;
+    Value sum = 0 * origin;
     double weights = 0;
     for (const std::size_t i : group) {
-      const double part = weight(error(i)) / weight(error(group.front()));
+      const double part = weight(error(i), exact) / weight(error(group.front()), exact);
       sum += part * (values[i] - origin);
       weights += part;
     }
@@ -331,7 +336,8 @@ class Surface_regularities {
                                          excused(numbers[i].error, numbers[j].error, most));
     };
     const auto mean = [&](const Numbers& group) {
-      return mean_of(before, group, [&](std::size_t i) { return numbers[i].error; });
+      const double exact = largest_share > 0 ? exact_length_ : exactness_;
+      return mean_of(before, group, exact, [&](std::size_t i) { return numbers[i].error; });
     };
     for (const Numbers& group : join_near_values(values, is_near, mean))
       for (std::size_t k = 1; k < group.size(); ++k)
@@ -341,6 +347,7 @@ class Surface_regularities {
   }
 
   Regularity_tolerance tolerance_;
+  double exact_length_ = 0;
   Regular_surfaces result_;
   std::vector<Direction> directions_;
 };
