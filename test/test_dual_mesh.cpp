@@ -701,6 +701,16 @@ Labels automatic_by_hand(const Mesh& mesh, const NamedParameters& np) {
   return ids.values();
 }
 
+/// The one call with one seeding, as by hand.
+template <class Mesh, class NamedParameters>
+Labels automatic_in_one_call(const Mesh& mesh, const NamedParameters& np) {
+  Automatic_segmentation policies;
+  policies.seedings = 1;
+  Face_labels<Mesh> ids(mesh);
+  segmentation_via_random_walks(mesh, ids.map(), policies, np);
+  return ids.values();
+}
+
 }  // namespace
 
 TYPED_TEST(Doors, GiveByHandTheLabelsOfTheOneCall) {
@@ -710,9 +720,8 @@ TYPED_TEST(Doors, GiveByHandTheLabelsOfTheOneCall) {
         meshes::with_noise(meshes::two_spheres_with_neck(2.4, 0.3, 32), 0.05),  // heavy
         meshes::together(meshes::l_shape(5), meshes::moved(meshes::with_noise(meshes::sphere(2), 0.01), {4, 0, 0}))}) {
     const TypeParam held(shape);
-    Face_labels<Mesh> ids(held.mesh);
-    segmentation_via_random_walks(held.mesh, ids.map());
-    EXPECT_EQ(automatic_by_hand(held.mesh, CGAL::parameters::default_values()), ids.values());
+    const auto defaults = CGAL::parameters::default_values();
+    EXPECT_EQ(automatic_by_hand(held.mesh, defaults), automatic_in_one_call(held.mesh, defaults));
 
     const auto& mesh = held.mesh;
     const auto points = get(CGAL::vertex_point, mesh);
@@ -722,8 +731,7 @@ TYPED_TEST(Doors, GiveByHandTheLabelsOfTheOneCall) {
       return is_low(face(h, mesh)) != is_low(face(opposite(h, mesh), mesh));
     });
     const auto np = CGAL::parameters::edge_is_constrained_map(walls);
-    segmentation_via_random_walks(mesh, ids.map(), np);
-    EXPECT_EQ(automatic_by_hand(mesh, np), ids.values());
+    EXPECT_EQ(automatic_by_hand(mesh, np), automatic_in_one_call(mesh, np));
   }
 }
 
@@ -731,8 +739,7 @@ TEST(ByHand, GivesTheLabelsOfTheOneCallOnDataMeshes) {
   for (const char* name : {"elephant.off", "blobby.off", "fandisk.off"}) {
     const auto mesh = meshes::data_mesh(name);
     if (!mesh) GTEST_SKIP() << "CGAL's data meshes are not installed";
-    Face_labels<meshes::Surface_mesh> ids(*mesh);
-    segmentation_via_random_walks(*mesh, ids.map());
-    EXPECT_EQ(automatic_by_hand(*mesh, CGAL::parameters::default_values()), ids.values()) << name;
+    const auto defaults = CGAL::parameters::default_values();
+    EXPECT_EQ(automatic_by_hand(*mesh, defaults), automatic_in_one_call(*mesh, defaults)) << name;
   }
 }
