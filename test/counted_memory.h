@@ -44,6 +44,15 @@ std::size_t peak_of(const Work& work) {
 
 void* operator new(std::size_t size) { return counted_memory::allocate(size); }
 void* operator new[](std::size_t size) { return counted_memory::allocate(size); }
+// That of a sanitizer does not call the above, as the standard library's does.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return counted_memory::allocate(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept { counted_memory::release(memory); }
 void operator delete(void* memory) noexcept { counted_memory::release(memory); }
 void operator delete[](void* memory) noexcept { counted_memory::release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { counted_memory::release(memory); }
