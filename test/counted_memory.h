@@ -44,7 +44,7 @@ std::size_t peak_of(const Work& work) {
 
 void* operator new(std::size_t size) { return counted_memory::allocate(size); }
 void* operator new[](std::size_t size) { return counted_memory::allocate(size); }
-// That of a sanitizer does not call the above, as the standard library's does.
+// Those of a sanitizer do not call the above, as the standard library's do.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return counted_memory::allocate(size);
@@ -52,7 +52,9 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return nullptr;
   }
 }
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
 void operator delete(void* memory, const std::nothrow_t&) noexcept { counted_memory::release(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { counted_memory::release(memory); }
 void operator delete(void* memory) noexcept { counted_memory::release(memory); }
 void operator delete[](void* memory) noexcept { counted_memory::release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { counted_memory::release(memory); }

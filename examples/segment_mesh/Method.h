@@ -183,8 +183,8 @@ void take_numbers(const Preset& preset, Method& method) {
   if (method.seeding != Seeding::coarse) method.seeds = preset.seeding.count;
 }
 
-/// How often seeds are placed. What several seedings agree on is told by a cost that is 1 where it is as well to merge as not
-/// to, and all but the first are far apart.
+/// How often seeds are placed where the user does not tell: several times for a cost that is 1 where it is as well to merge as
+/// not to, which tells what seedings agree on, and for seeds that are far apart, as those of all further seedings are.
 inline std::size_t usual_seedings(Seeding seeding, Merge_cost merge_cost) {
   return merge_cost == Merge_cost::learned && seeding == Seeding::farthest
              ? RW_segmentation::Automatic_segmentation().seedings
