@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // Coloured meshes for those pictures of the manual that need more than segment_mesh offers: see scripts/make-figures.
 //
 //   figure_mesh MESH OUT.ply --parameter tension --value 0.5    segments with one parameter changed

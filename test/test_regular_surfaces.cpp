@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/regular_surfaces.h>
 #include <RW_segmentation/segment_surfaces.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept Difference
 ///
 /// How different the two faces of an edge are: what the walk should not cross, what distances between coarse seeds add

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept MergeCost
 ///
 /// What it costs to make one segment of two neighbours; the cheapest pair is merged first.

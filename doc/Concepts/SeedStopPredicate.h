@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept SeedStopPredicate
 ///
 /// Where coarse seeding ends, for `coarse_seeds()` and `Coarse_seeding`.

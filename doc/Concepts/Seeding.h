@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept Seeding
 ///
 /// Where the walks of an automatic segmentation begin: one seed for each fragment, of which segments are merged.

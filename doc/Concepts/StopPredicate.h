@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept StopPredicate
 ///
 /// Where to stop merging: chooses a level of a `Merge_tree` after all merges have been recorded.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// \cgalConcept WalkSolver
 ///
 /// Solves the Dirichlet problem of a random walk on a `Dual_graph`: the potentials of all faces when some, the absorbing

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { defineConfig } from '@playwright/test';
 
 const output = '../../build/browser';

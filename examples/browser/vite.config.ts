@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 

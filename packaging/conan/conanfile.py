@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 """Conan 2 recipe of the tree that it lies in: conan create packaging/conan"""
 
 import os

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 // The engine for programs that run in Node.
 import { createRequire } from 'node:module';
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { Session } from './model/Session';
 import { automaticPanel } from './panels/automaticPanel';
 import { byId } from './panels/dom';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { readEmbeddedResult, type EmbeddedResult } from './files/embeddedResult';
 import { withNewLabel, type Annotation } from './model/labels';
 import type { Session } from './model/Session';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** The text of an OFF file. */
 export function offFile(points: number[][], faces: number[][]): string {
   const rows = [...points.map((point) => point.join(' ')), ...faces.map((face) => [face.length, ...face].join(' '))];

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { FoundSurfaces, Hierarchy, HierarchyKind, Policies, Regularity } from '../worker/EngineModule';
 
 /** A result that `segment_mesh --html` has put into the page. */

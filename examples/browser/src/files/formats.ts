@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { FileFormat } from '../worker/EngineModule';
 
 /** What meshes and seeds are opened from end with. */

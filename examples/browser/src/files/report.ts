@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { ShownSegment } from '../model/Session';
 import type { LoadedMesh } from '../worker/calls';
 import type { FoundSurfaces } from '../worker/EngineModule';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** Gives the user a file. */
 export function save(fileName: string, content: BlobPart): void {
   const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content]));

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Annotation, Label } from '../model/labels';
 
 /** Tells seeds from other JSON files. */

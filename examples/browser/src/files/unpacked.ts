@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /**
  * The bytes of a file, unpacked if it is packed by gzip.
  *

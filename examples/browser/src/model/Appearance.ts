@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { batch, signal } from '@preact/signals-core';
 
 /** How segments are shown. */

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { defaultPolicies } from '../worker/calls';
 import { Cancelled, type EngineClient } from '../worker/EngineClient';

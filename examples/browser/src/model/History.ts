@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** A value with the values before it, and those that were undone. */
 export interface History<T> {
   readonly past: readonly T[];

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { batch, computed, signal } from '@preact/signals-core';
 import type { EngineClient } from '../worker/EngineClient';
 import { amend, beginHistory, record, redo, undo } from './History';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { batch, computed, effect, signal } from '@preact/signals-core';
 import { unpacked } from '../files/unpacked';
 import { defaultParameters, type LoadedMesh, type MeshSource, type WalkParameters } from '../worker/calls';

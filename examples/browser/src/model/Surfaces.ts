@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { EngineClient } from '../worker/EngineClient';
 import type { FoundSurfaces, Regularity, SurfaceType, Walls } from '../worker/EngineModule';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** Red, green and blue, each from 0 to 255. */
 export type Color = readonly [number, number, number];
 type Triple = readonly [number, number, number];

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Color } from './colorVision';
 
 /** The colour map viridis (van der Walt and Smith 2015) at eight equidistant values. */

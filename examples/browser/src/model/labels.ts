@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { colorOf, hexadecimal } from './colorVision';
 import { farthestColor } from './palette';
 import { withoutLabel, type Seeds } from './seeds';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /**
  * Runs a job now, or, while it runs, once more after its end, however often it is asked for: answers follow edits as
  * fast as they come, and the last edit is always answered.

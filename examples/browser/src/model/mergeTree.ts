@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Hierarchy } from '../worker/EngineModule';
 
 /** What of a hierarchy tells the segment of each fragment. */

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { apparentDistance, appearances, type Color } from './colorVision';
 
 /** Eight hues that suit people with a colour-vision deficiency (Okabe and Ito 2008, grey in the place of black). */

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** The label of each seed face. */
 export type Seeds = ReadonlyMap<number, number>;
 

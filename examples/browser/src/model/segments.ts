@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** A segment as it is listed. */
 export interface Segment {
   label: number;

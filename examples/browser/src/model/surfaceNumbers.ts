@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Surface, SurfaceSnap, SurfaceType } from '../worker/EngineModule';
 
 /** The types that a segment's surface can have, as they are listed. */

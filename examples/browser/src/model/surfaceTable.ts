@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Surface } from '../worker/EngineModule';
 import { surfaceTypes } from './surfaceNumbers';
 

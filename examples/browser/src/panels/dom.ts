@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** The element of the page with an id. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   const element = document.getElementById(id);

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import type { Label } from '../model/labels';
 import type { Session } from '../model/Session';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import { openedEndings } from '../files/formats';
 import { readSeeds } from '../files/seeds';

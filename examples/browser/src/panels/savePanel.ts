@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import { labelFormats, meshFormats, type SavedFormat } from '../files/formats';
 import { reportFile } from '../files/report';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import { hexadecimal } from '../model/colorVision';
 import type { Session, ShownSegment } from '../model/Session';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Session, Tool } from '../model/Session';
 import type { PointerTools } from '../view/PointerTools';
 import type { Stage } from '../view/Stage';

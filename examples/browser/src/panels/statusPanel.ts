@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import { heatGradient } from '../model/heatMap';
 import type { Session } from '../model/Session';

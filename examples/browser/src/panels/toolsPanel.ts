@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import type { Session, Tool } from '../model/Session';
 import type { PointerTools } from '../view/PointerTools';

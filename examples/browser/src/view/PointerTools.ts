@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect } from '@preact/signals-core';
 import { MOUSE, TOUCH } from 'three';
 import type { Session } from '../model/Session';

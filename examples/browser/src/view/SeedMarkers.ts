@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, ShaderMaterial, Vector3 } from 'three';
 import type { Color } from '../model/colorVision';
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { effect, untracked } from '@preact/signals-core';
 import { Vector3 } from 'three';
 import { colorOf, type Color } from '../model/colorVision';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import EngineWorker from './worker?worker&inline';
 import type { Calls, LoadedMesh, MeshSource, Reply, Request, TimedHierarchy, WalkParameters } from './calls';
 import type { AutomaticMethod, Curves, FoundSurfaces, Walls } from './EngineModule';

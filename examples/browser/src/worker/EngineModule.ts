@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /** The interface of the package's headers as WebAssembly, see `engine/`. All calls are synchronous. */
 export interface EngineModule {
   /** The first bytes tell the format, or the name: .off, .ply, .obj, .stl, .msh, .mesh, .meshb, .vtp. */

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /**
  * Pairs of different faces that share an edge, each pair once for each edge it shares.
  *

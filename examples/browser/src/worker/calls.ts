@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import type { Seeds } from '../model/seeds';
 import type {
   AutomaticMethod,

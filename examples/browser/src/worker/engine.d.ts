@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 declare module 'engine' {
   import type { EngineModule } from './EngineModule';
   export default function createEngine(): Promise<EngineModule>;

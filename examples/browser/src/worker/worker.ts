@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import createEngine from 'engine';
 import { seedEdit, type Seeds } from '../model/seeds';
 import { adjacentFaces } from './adjacentFaces';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { readdirSync, readFileSync } from 'node:fs';
 
 /** Milliseconds that the processes started by this one, and those started by them, have computed so far (Linux). */

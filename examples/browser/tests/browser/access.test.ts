@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { readFileSync, writeFileSync } from 'node:fs';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { bumpySphere, cube, offFile } from '../meshes';
 import { segmentsAtLevel } from '../../src/model/mergeTree';
 import { defaultPolicies } from '../../src/worker/calls';

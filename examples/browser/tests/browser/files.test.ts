@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { gzipSync } from 'node:zlib';
 import { labelFormats, meshFormats } from '../../src/files/formats';
 import { cube, offFile, triangulated } from '../meshes';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { cube, offFile, triangulated } from '../meshes';
 import { answer, engineWith, expect, test } from './fixture';
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { shaft } from '../meshes';
 import { expect, test, type SegmentationTester } from './fixture';
 

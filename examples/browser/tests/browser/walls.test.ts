@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { bumpySphere, cube, offFile } from '../meshes';
 import { noWalls } from '../../src/worker/calls';
 import { answer, engineWith, expect, test, type SegmentationTester } from './fixture';

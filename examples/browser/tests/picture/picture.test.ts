@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { pathToFileURL } from 'node:url';
 import { expect, test } from '../browser/fixture';
 

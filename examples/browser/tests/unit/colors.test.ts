@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { expect, test } from '@playwright/test';
 import { apparentDistance, appearances, colorOf, hexadecimal, type Color } from '../../src/model/colorVision';
 import { heat } from '../../src/model/heatMap';

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { deflateSync } from 'node:zlib';
 import { expect, test } from '@playwright/test';
 import { readEmbeddedResult } from '../../src/files/embeddedResult';

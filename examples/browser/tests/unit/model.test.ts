@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { expect, test } from '@playwright/test';
 import { amend, beginHistory, record, redo, undo } from '../../src/model/History';
 import { newAnnotation, withNewLabel, withoutLabelAndSeeds } from '../../src/model/labels';

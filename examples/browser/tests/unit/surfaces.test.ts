@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 import { expect, test } from '@playwright/test';
 import { measured, numbersOf, rounded, sizeOf, snapText } from '../../src/model/surfaceNumbers';
 import { sortedSurfaces, type SurfaceSegment } from '../../src/model/surfaceTable';

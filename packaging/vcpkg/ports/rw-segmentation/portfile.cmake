@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: MIT
+
 # The port of the tree that it lies in. Elsewhere, vcpkg_from_github() or vcpkg_from_git() takes the place of this line.
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../../.." ABSOLUTE)
 
