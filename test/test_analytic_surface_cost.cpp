@@ -124,6 +124,17 @@ TEST(SurfaceTolerance, EstimatesTheNoiseOfTheVertices) {
     }
 }
 
+TEST(SurfaceTolerance, EstimatesMostOfNoiseThatMakesFineFacesSharp) {
+  constexpr double percent = 0.3;  // an eighth of the edges, so that many of a plane's turn by 60 degrees and more
+  const solids::Meshing fine = solids::even(0.05);
+  for (const solids::Solid& clean : {solids::flange(fine), solids::capsule(fine)}) {
+    const Surface_mesh mesh = meshes::surface_mesh(shape_of(solids::with_noise(clean, percent)));
+    const double part = 100 / percent * internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise;
+    EXPECT_GE(part, 0.75) << clean.name;
+    EXPECT_LE(part, 1.1) << clean.name;
+  }
+}
+
 TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
     const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));

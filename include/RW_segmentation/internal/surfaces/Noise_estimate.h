@@ -24,10 +24,12 @@ class Noise_estimate {
  public:
   using Index = Dual_mesh::Index;
 
-  explicit Noise_estimate(const Dual_mesh& mesh)
-      : number_of_faces_(mesh.number_of_faces()),
-        patches_(mesh, edge_angles(mesh), [](Index) { return radians(60); }) {
-  }  // what noise hardly makes of flat edges
+  /// \param expected what neighbourhoods are to reckon with: they end at edges that it does not explain
+  Noise_estimate(const Dual_mesh& mesh, const Surface_tolerance& expected)
+      : number_of_faces_(mesh.number_of_faces()), patches_(mesh, edge_angles(mesh), [&](Index e) {
+          constexpr double sharp = radians(60);  // what a little noise hardly makes of flat edges
+          return std::max(sharp, expected.angle_of_noise(mesh.graph().faces_of(e)));
+        }) {}
 
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {

@@ -8,14 +8,17 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
+#include <RW_segmentation/internal/surfaces/Minimum_cut.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -41,44 +44,55 @@ class Region_borders {
   }
 
  private:
-  static constexpr std::size_t none = Analytic_regions::none;
+  static constexpr std::size_t none = Analytic_regions::none, no_node = none;
+  static constexpr double whole_border = 8;  // nats, as `energy()`, of a face that is no neighbour of its region
 
   void settle_exact() {
     constexpr int most_sweeps = 4;
     constexpr double unexplained = 2;  // all of the distance and all of the angle that are allowed
     const std::vector<double> sign = signs();
-    move_faces(most_sweeps, [&](Index f, std::size_t region) {
+    const auto any = [](std::size_t) { return true; };
+    move_faces(most_sweeps, any, [&](Index f, std::size_t region) {
       return region == none ? unexplained : misfit(region, sign[region], f);
     });
   }
 
+  /// Lowers the energy of a Potts model by a minimum cut for each two regions that meet (the swaps of Boykov, Veksler and
+  /// Zabih 2001), and fits the surfaces to what the regions have become, in turns.
   void settle_noisy() {
     constexpr int most_rounds = 4, most_sweeps = 6;
-    constexpr double unexplained = 3;  // nats, as `energy()`
+    constexpr double unexplained = 6;  // nats, as `energy()`
+    const auto has_none = [](std::size_t region) { return region == none; };
+    std::vector<char> is_new(regions_.surfaces.size(), true);
+    node_of_face_.assign(mesh_.number_of_faces(), no_node);
     for (int round = 0; round < most_rounds; ++round) {
-      fit_again();
+      const std::vector<std::size_t> before = regions_.region_of_face;
+      fit_again(is_new);
       const std::vector<double> sign = signs();
-      const bool has_moved = move_faces(most_sweeps, [&](Index f, std::size_t region) {
+      move_faces(most_sweeps, has_none, [&](Index f, std::size_t region) {
         return border_energy(region, f) + (region == none ? unexplained : energy(region, sign[region], f));
       });
-      if (!has_moved) break;
+      cut_between_neighbours(sign, is_new);
+      if (regions_.region_of_face == before) break;
+      is_new = regions_unlike(before);
     }
   }
 
   /// Moves each face to the region of a neighbour where it costs least, again and again.
+  /// \param moves whether the faces of a region, or of none, do
   /// \param cost of a face, in a region or none
-  template <class Cost>
-  bool move_faces(int most_sweeps, const Cost& cost) {
+  template <class Predicate, class Cost>
+  void move_faces(int most_sweeps, const Predicate& moves, const Cost& cost) {
     constexpr Index between_reports = 10000;  // faces, some milliseconds
     constexpr double least_gain = 1e-3;       // of a move, lest rounding errors move faces to and fro
     constexpr double unknown_cost = std::numeric_limits<double>::infinity();
     std::vector<std::size_t>& region_of_face = regions_.region_of_face;
-    bool has_moved = false;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      bool moves = false;
+      bool has_moved = false;
       for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
         if (f % between_reports == 0) progress_(1);
         const std::size_t own = region_of_face[f];
+        if (!moves(own)) continue;
         std::size_t best = own;
         double least = unknown_cost;  // within a region nothing is to be compared
         for (const auto& [g, e] : mesh_.graph().neighbours(f)) {
@@ -91,23 +105,119 @@ class Region_borders {
             best = other;
           }
         }
-        moves |= best != own;
+        has_moved |= best != own;
         region_of_face[f] = best;
       }
-      if (!moves) break;
-      has_moved = true;
+      if (!has_moved) break;
     }
-    return has_moved;
   }
 
-  /// Fits each surface to its region.
-  void fit_again() {
+  /// Which regions have gained or lost faces.
+  std::vector<char> regions_unlike(const std::vector<std::size_t>& before) const {
+    std::vector<char> is_other(regions_.surfaces.size(), false);
+    for (Index f = 0; f < mesh_.number_of_faces(); ++f)
+      if (before[f] != regions_.region_of_face[f])
+        for (const std::size_t region : {before[f], regions_.region_of_face[f]})
+          if (region != none) is_other[region] = true;
+    return is_other;
+  }
+
+  /// Two regions that meet, and the faces that either may get, those of their border first.
+  struct Contest {
+    std::array<std::size_t, 2> regions;
+    std::vector<Index> faces;
+    std::array<std::vector<double>, 2> costs;  // of each face in either region
+  };
+
+  /// \param sign of each region, see `signs()`
+  /// \param is_new each region: between two that are not, nothing has changed since they were cut
+  void cut_between_neighbours(const std::vector<double>& sign, const std::vector<char>& is_new) {
+    std::map<std::array<std::size_t, 2>, std::vector<Index>> borders;  // the faces on both sides
+    for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
+      const std::size_t own = regions_.region_of_face[f];
+      if (own == none) continue;
+      for (const auto& [g, e] : mesh_.graph().neighbours(f))
+        if (const std::size_t other = regions_.region_of_face[g];
+            own < other && other != none && !mesh_.is_wall(e) && (is_new[own] || is_new[other])) {
+          std::vector<Index>& border = borders[{own, other}];
+          border.push_back(f);
+          border.push_back(g);
+        }
+    }
+    for (const auto& [regions, border] : borders) {
+      progress_(1);
+      Contest contest = contest_between(regions, border, sign);
+      share_out(contest);
+    }
+  }
+
+  /// The faces on the border of two regions and, on from these, those that do not cost so much less where they are that no
+  /// border would be worth it.
+  Contest contest_between(const std::array<std::size_t, 2>& regions, const std::vector<Index>& border,
+                          const std::vector<double>& sign) {
+    Contest contest = {regions, {}, {}};
+    const auto add = [&](Index f) {
+      if (!is_in(contest, f) || node_of_face_[f] != no_node) return;
+      node_of_face_[f] = contest.faces.size();
+      contest.faces.push_back(f);
+    };
+    std::for_each(border.begin(), border.end(), add);
+    for (std::size_t first = 0; first < contest.faces.size();) {  // a ring farther from the border each time
+      const std::size_t end = contest.faces.size();
+      for (std::size_t side = 0; side < 2; ++side)
+        append_energies(regions[side], sign[regions[side]], contest.faces, contest.costs[side]);
+      for (; first < end; ++first) {
+        const Index f = contest.faces[first];
+        const std::size_t own = side_of(contest, f);
+        if (contest.costs[1 - own][first] - contest.costs[own][first] >= whole_border) continue;
+        for (const auto& [g, e] : mesh_.graph().neighbours(f))
+          if (!mesh_.is_wall(e)) add(g);
+      }
+    }
+    return contest;
+  }
+
+  /// Cuts between two regions where it costs least; the faces beyond stay where they are.
+  void share_out(Contest& contest) {
+    const std::vector<Index>& faces = contest.faces;
+    Minimum_cut cut(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (const auto& [g, e] : mesh_.graph().neighbours(faces[i])) {
+        if (!is_in(contest, g) || mesh_.is_wall(e)) continue;
+        const double cost = border_energy(faces[i], g, e);
+        if (node_of_face_[g] == no_node)
+          contest.costs[1 - side_of(contest, g)][i] += cost;
+        else if (faces[i] < g)
+          cut.set_cost_between(i, node_of_face_[g], cost);
+      }
+      cut.set_costs(i, contest.costs[0][i], contest.costs[1][i]);
+    }
+    cut.run();
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      node_of_face_[faces[i]] = no_node;
+      if (cut.is_on_first(i)) regions_.region_of_face[faces[i]] = contest.regions[0];
+      if (cut.is_on_second(i)) regions_.region_of_face[faces[i]] = contest.regions[1];
+    }
+  }
+
+  bool is_in(const Contest& contest, Index f) const {
+    const std::size_t region = regions_.region_of_face[f];
+    return region == contest.regions[0] || region == contest.regions[1];
+  }
+
+  std::size_t side_of(const Contest& contest, Index f) const {
+    return regions_.region_of_face[f] == contest.regions[0] ? 0 : 1;
+  }
+
+  /// Fits the surfaces of new regions to them.
+  void fit_again(const std::vector<char>& is_new) {
     constexpr std::size_t fewest_vertices = 12;
     std::vector<std::vector<Index>> faces(regions_.surfaces.size());
     for (Index f = 0; f < mesh_.number_of_faces(); ++f)
       if (regions_.region_of_face[f] != none) faces[regions_.region_of_face[f]].push_back(f);
     Face_patches patches(mesh_);
     for (std::size_t region = 0; region < faces.size(); ++region) {
+      if (!is_new[region]) continue;
       const Face_patches::Patch patch = patches.of(faces[region]);
       if (patch.vertices.size() < fewest_vertices) continue;
       if (const auto fitted = fitted_again(regions_.surfaces[region], patches.samples_of(patch)))
@@ -137,18 +247,30 @@ class Region_borders {
   /// How unlikely it is that noise puts a face where it is: the data term of a Potts model, half the sum of squared
   /// deviations.
   double energy(std::size_t region, double sign, Index f) const {
+    return with_type_of(regions_.surfaces[region], [&](const auto& surface) { return energy(surface, sign, f); });
+  }
+
+  /// The energies of faces in a region.
+  /// \param energies of the first ones; those of the others are appended
+  void append_energies(std::size_t region, double sign, const std::vector<Index>& faces,
+                       std::vector<double>& energies) const {
+    with_type_of(regions_.surfaces[region], [&](const auto& surface) {
+      while (energies.size() < faces.size()) energies.push_back(energy(surface, sign, faces[energies.size()]));
+    });
+  }
+
+  template <class Surface>
+  double energy(const Surface& surface, double sign, Index f) const {
     constexpr double most_squares = 30;   // an outlier is no worse than that
     constexpr double allowed_angle = 3;   // deviations of the normal, as in `Surface_tolerance`
     constexpr double shared_corners = 2;  // a corner tells about its other faces as well
-    return with_type_of(regions_.surfaces[region], [&](const auto& surface) {
-      double distances = 0;
-      for (const Index v : mesh_.corners(f)) {
-        const double distance = surface.distance(mesh_.point(v)) / tolerance_.distance;
-        distances += distance * distance;
-      }
-      const double turn = allowed_angle * angle(surface, sign, f) / tolerance_.normal_angle[f];
-      return (std::min(distances, most_squares) / shared_corners + std::min(turn * turn, most_squares)) / 2;
-    });
+    double distances = 0;
+    for (const Index v : mesh_.corners(f)) {
+      const double distance = surface.distance(mesh_.point(v)) / tolerance_.distance;
+      distances += distance * distance;
+    }
+    const double turn = allowed_angle * angle(surface, sign, f) / tolerance_.normal_angle[f];
+    return (std::min(distances, most_squares) / shared_corners + std::min(turn * turn, most_squares)) / 2;
   }
 
   /// The angle between a face and a surface, 0 if the face has no normal.
@@ -159,15 +281,24 @@ class Region_borders {
     return std::acos(std::clamp(cosine, -1., 1.));
   }
 
-  /// The length of the border of a face in a region, as a part of its edges.
+  /// Of a face on its border: the length of the edges to other regions, as a part of all.
   double border_energy(std::size_t region, Index f) const {
-    constexpr double whole_border = 3;  // nats, as `energy()`, of a face that is no neighbour of its region
-    double border = 0, all = 0;
-    for (const auto& [g, e] : mesh_.graph().neighbours(f)) {
-      all += mesh_.edge_length(e);
+    double border = 0;
+    for (const auto& [g, e] : mesh_.graph().neighbours(f))
       if (regions_.region_of_face[g] != region) border += mesh_.edge_length(e);
-    }
-    return all > 0 ? whole_border * border / all : 0;
+    return border > 0 ? whole_border * border / perimeter(f) : 0;
+  }
+
+  /// Of an edge between two regions: the mean of what it is to both faces.
+  double border_energy(Index f, Index g, Index edge) const {
+    const double length = mesh_.edge_length(edge);
+    return length > 0 ? whole_border * length * (1 / perimeter(f) + 1 / perimeter(g)) / 2 : 0;
+  }
+
+  double perimeter(Index f) const {
+    double length = 0;
+    for (const auto& [g, e] : mesh_.graph().neighbours(f)) length += mesh_.edge_length(e);
+    return length;
   }
 
   const Eigen::Vector3d& normal(Index face) const { return mesh_.shape_normals()[face]; }
@@ -176,6 +307,7 @@ class Region_borders {
   const Surface_tolerance& tolerance_;
   Analytic_regions& regions_;
   Progress progress_;
+  std::vector<std::size_t> node_of_face_;  // under noise: the number of each face in the present `Contest`
 };
 
 }  // namespace RW_segmentation::internal
