@@ -117,8 +117,8 @@ class Region_fragments {
   }
 
   bool continues_a_region(const std::vector<Index>& group, const std::vector<std::size_t>& region_of_face) const {
-    // The fewest of a face of the solid that no surface fits. Clean: at 10, a thirtieth more segments (`_5k`); at 40, overlap
-    // .9760 in place of .9766. Under noise 50 and 200 are as good.
+    // The fewest of a face of the solid that no surface fits. Clean: at 10, a thirtieth more segments (`_5k`); at 40,
+    // overlap .9760 in place of .9766. Under noise 50 and 200 are as good.
     constexpr std::size_t clean_faces = 20, noisy_faces = 100;
     if (group.size() >= (tolerance_.is_noisy() ? noisy_faces : clean_faces)) return false;
     if (!tolerance_.is_noisy() && is_flat(group)) return false;

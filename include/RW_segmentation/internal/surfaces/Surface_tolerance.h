@@ -24,8 +24,8 @@ constexpr double radians(double degrees) { return degrees * (3.14159265358979323
 struct Surface_tolerance {
   using Index = Dual_mesh::Index;
 
-  /// Vertices of CAD models written with six digits or so are that exact. At half of it, overlap .9705 in place of .9744 (`_t`);
-  /// at twice, .9756, but .9742 in place of .9766 (`_5k`).
+  /// Vertices of CAD models written with six digits or so are that exact. At half of it, overlap .9705 in place of .9744
+  /// (`_t`); at twice, .9756, but .9742 in place of .9766 (`_5k`).
   static constexpr double cad_exactness = 1e-5;
 
   double noise = 0;                  ///< standard deviation of the vertices, 0 if it is below `distance`
