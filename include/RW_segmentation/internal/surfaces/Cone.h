@@ -5,8 +5,8 @@
 
 #include <RW_segmentation/internal/surfaces/Scaled_samples.h>
 #include <RW_segmentation/internal/surfaces/Surface_of_revolution.h>
+#include <RW_segmentation/internal/surfaces/solve_symmetric.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ struct Cone : Surface_of_revolution<Cone> {
       right += n * n.dot(samples.scaled(samples.normal_points()[i]));
       mean_normal += n / count;
     }
-    const Eigen::Vector3d apex = (sum + determined * Eigen::Matrix3d::Identity()).ldlt().solve(right);
+    const Eigen::Vector3d apex = solve_symmetric<3>(sum + determined * Eigen::Matrix3d::Identity(), right);
     if (!(apex.norm() < 2 * Scaled_samples::largest_ratio)) return {};
     Cone cone;
     cone.point = samples.unscaled(apex);

@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 
 #include <RW_segmentation/internal/surfaces/Point_block.h>
+#include <RW_segmentation/internal/surfaces/solve_symmetric.h>
 
 #include <Eigen/Core>
 
@@ -90,7 +91,7 @@ class Least_squares_surface {
       Matrix damped = hessian_;
       damped.diagonal() *= 1 + damping_;
       damped.diagonal().array() += determined * largest;
-      const Vector step = solution(damped, -gradient_);
+      const Vector step = solve_symmetric<unknowns>(damped, -gradient_);
       if (const double linear = squares_after(step); linear > hopeless_squares && linear > hardly_less * sum_)
         return false;
       const Type moved = surface_.moved(step, frame);
@@ -103,26 +104,6 @@ class Least_squares_surface {
       }
     }
     return false;
-  }
-
-  /// Solves linear equations by L D L^T without pivots, which a damped matrix does not need. Unknowns that the equations
-  /// do not tell are 0.
-  /// \param matrix its lower half is read
-  static Vector solution(Matrix matrix, Vector right) {
-    Vector inverse;  // of the pivots
-    for (int j = 0; j < unknowns; ++j) {
-      inverse[j] = matrix(j, j) > 0 ? 1 / matrix(j, j) : 0;
-      for (int i = j + 1; i < unknowns; ++i) {
-        const double factor = matrix(i, j) * inverse[j];
-        for (int k = i; k < unknowns; ++k) matrix(k, i) -= factor * matrix(k, j);
-        right[i] -= factor * right[j];
-      }
-    }
-    for (int i = unknowns - 1; i >= 0; --i) {
-      for (int k = i + 1; k < unknowns; ++k) right[i] -= matrix(k, i) * right[k];
-      right[i] *= inverse[i];
-    }
-    return right;
   }
 
   /// The normal equations at the present surface.

@@ -25,20 +25,25 @@
 namespace RW_segmentation::internal {
 
 /// The inverse of a matrix of normal equations; infinite where it is singular.
-template <class Matrix>
-Matrix covariance_of(const Matrix& normal_matrix) {
+inline Small_matrix covariance_of(const Small_matrix& normal_matrix) {
   constexpr double determined = 1e-14;  // of the largest eigenvalue: beyond it, rounding alone tells an unknown
-  using Vector = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
-  const Vector scale = normal_matrix.diagonal().cwiseSqrt();
-  if (!(scale.minCoeff() > 0)) return Matrix::Constant(std::numeric_limits<double>::infinity());
-  const Vector inverse_scale = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(inverse_scale.asDiagonal() * normal_matrix *
-                                                    inverse_scale.asDiagonal());
-  if (!(eigen.eigenvalues()[0] > determined * eigen.eigenvalues().maxCoeff()))
-    return Matrix::Constant(std::numeric_limits<double>::infinity());
-  const Matrix inverse =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  return inverse_scale.asDiagonal() * inverse * inverse_scale.asDiagonal();
+  const Eigen::Index n = normal_matrix.rows();
+  Small_matrix scaled = normal_matrix;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) scaled(i, j) /= std::sqrt(normal_matrix(i, i) * normal_matrix(j, j));
+  Small_matrix covariance = Small_matrix::Constant(n, n, std::numeric_limits<double>::infinity());
+  if (!scaled.allFinite()) return covariance;
+  const Eigen::SelfAdjointEigenSolver<Small_matrix> eigen(scaled);
+  const auto& values = eigen.eigenvalues();
+  const auto& vectors = eigen.eigenvectors();
+  if (!(values[0] > determined * values[n - 1])) return covariance;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      double inverse = 0;
+      for (Eigen::Index k = 0; k < n; ++k) inverse += vectors(i, k) * vectors(j, k) / values[k];
+      covariance(i, j) = inverse / std::sqrt(normal_matrix(i, i) * normal_matrix(j, j));
+    }
+  return covariance;
 }
 
 inline double standard_deviation(double variance) {
@@ -46,24 +51,20 @@ inline double standard_deviation(double variance) {
 }
 
 /// The standard deviation in the direction in which some unknowns are known least.
-template <int First, int Count, class Matrix>
-double largest_error(const Matrix& covariance) {
-  using Block = Eigen::Matrix<double, Count, Count>;
-  if constexpr (Count == 0) {
-    return 0;
-  } else {
-    const Block block = covariance.template block<Count, Count>(First, First);
-    if (!block.allFinite()) return std::numeric_limits<double>::infinity();
-    return standard_deviation(Eigen::SelfAdjointEigenSolver<Block>(block).eigenvalues()[Count - 1]);
-  }
+inline double largest_error(const Small_matrix& covariance, Eigen::Index first, Eigen::Index count) {
+  if (count == 0) return 0;
+  const Small_matrix block = covariance.block(first, first, count, count);
+  if (!block.allFinite()) return std::numeric_limits<double>::infinity();
+  const Eigen::SelfAdjointEigenSolver<Small_matrix> eigen(block, Eigen::EigenvaluesOnly);
+  return standard_deviation(eigen.eigenvalues()[count - 1]);
 }
 
 /// The errors of the numbers of a surface from their covariance.
-template <class Type, class Matrix>
-Surface_errors surface_errors(const Matrix& covariance) {
+template <class Type>
+Surface_errors surface_errors(const Small_matrix& covariance) {
   Surface_errors errors;
-  errors.point = largest_error<0, Type::shifts>(covariance);
-  errors.direction = largest_error<Type::shifts, Type::turns>(covariance);
+  errors.point = largest_error(covariance, 0, Type::shifts);
+  errors.direction = largest_error(covariance, Type::shifts, Type::turns);
   int k = Type::shifts + Type::turns;
   std::apply([&](auto&... number) { ((number = standard_deviation(covariance(k, k)), ++k), ...); },
              Type::numbers(errors));
@@ -109,7 +110,6 @@ inline Analytic_surface measured_surface(const Analytic_surface& surface, const 
   if (surface.type == Surface_type::free_form) return surface;
   return with_type_of(surface, [&](auto typed) {
     using Type = std::decay_t<decltype(typed)>;
-    using Matrix = typename Least_squares_surface<Type>::Matrix;
     Surface_samples kept = {without_strays(typed, points), {}, {}};
     for (int round = 1; round < rounds; ++round) {
       typed = closest_surface(typed, kept).surface();
@@ -123,7 +123,7 @@ inline Analytic_surface measured_surface(const Analytic_surface& surface, const 
     constexpr double freedom = Type::degrees_of_freedom;
     const double variance =
         n > freedom ? result.residual * result.residual * n / (n - freedom) : std::numeric_limits<double>::infinity();
-    result.errors = surface_errors<Type>(Matrix(variance * covariance_of(fit.normal_matrix())));
+    result.errors = surface_errors<Type>(variance * covariance_of(fit.normal_matrix()));
     return result;
   });
 }

@@ -4,8 +4,8 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_SCALED_SAMPLES_H
 
 #include <RW_segmentation/Surface_samples.h>
+#include <RW_segmentation/internal/surfaces/solve_symmetric.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
@@ -16,6 +16,10 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
+
+/// A square matrix of up to 7 rows, as many as a surface has unknowns. Of one type, since Eigen's decompositions take
+/// seconds to compile for each.
+using Small_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
 
 /// Samples of a surface, and where they lie: first guesses of surfaces are made relative to the mean of the points, in
 /// units of their spread.
@@ -73,7 +77,7 @@ class Scaled_samples {
       right += row * x.squaredNorm();
     }
     matrix.diagonal().array() += determined;
-    Ball<Dimension> solution = matrix.ldlt().solve(right);
+    Ball<Dimension> solution = solve_symmetric<Dimension + 1>(matrix, right);
     const double square = solution[Dimension] + solution.template head<Dimension>().squaredNorm();
     if (!(square > 0) || square > 4 * largest_ratio * largest_ratio) return {};  // least squares may shrink it to half
     solution[Dimension] = std::sqrt(square);

@@ -57,7 +57,7 @@ struct Torus : Surface_of_revolution<Torus> {
       line << samples.scaled(samples.normal_points()[i]).cross(samples.normals()[i]), samples.normals()[i];
       sum += line * line.transpose();
     }
-    const Matrix6 complexes = Eigen::SelfAdjointEigenSolver<Matrix6>(sum).eigenvectors();
+    const Small_matrix complexes = Eigen::SelfAdjointEigenSolver<Small_matrix>(sum).eigenvectors();
     std::vector<Torus> guesses;
     for (int k = 0; k < 2; ++k) {  // the second one, too, where a piece is so small that it turns about two axes
       const Eigen::Vector3d axis = complexes.col(k).head<3>(), moment = complexes.col(k).tail<3>();
