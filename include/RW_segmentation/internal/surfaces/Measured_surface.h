@@ -28,11 +28,12 @@ namespace RW_segmentation::internal {
 inline Small_matrix covariance_of(const Small_matrix& normal_matrix) {
   constexpr double determined = 1e-14;  // of the largest eigenvalue: beyond it, rounding alone tells an unknown
   const Eigen::Index n = normal_matrix.rows();
+  Small_matrix covariance = Small_matrix::Constant(n, n, std::numeric_limits<double>::infinity());
+  const Small_matrix scale = normal_matrix.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return covariance;
   Small_matrix scaled = normal_matrix;
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) scaled(i, j) /= std::sqrt(normal_matrix(i, i) * normal_matrix(j, j));
-  Small_matrix covariance = Small_matrix::Constant(n, n, std::numeric_limits<double>::infinity());
-  if (!scaled.allFinite()) return covariance;
+    for (Eigen::Index j = 0; j < n; ++j) scaled(i, j) /= scale(i) * scale(j);
   const Eigen::SelfAdjointEigenSolver<Small_matrix> eigen(scaled);
   const auto& values = eigen.eigenvalues();
   const auto& vectors = eigen.eigenvectors();
@@ -41,7 +42,7 @@ inline Small_matrix covariance_of(const Small_matrix& normal_matrix) {
     for (Eigen::Index j = 0; j < n; ++j) {
       double inverse = 0;
       for (Eigen::Index k = 0; k < n; ++k) inverse += vectors(i, k) * vectors(j, k) / values[k];
-      covariance(i, j) = inverse / std::sqrt(normal_matrix(i, i) * normal_matrix(j, j));
+      covariance(i, j) = inverse / (scale(i) * scale(j));
     }
   return covariance;
 }
