@@ -106,13 +106,29 @@ std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const
   return subjects;
 }
 
-/// The mesh of a subject, its faces in order; vertices where the surface touches itself are doubled.
-Mesh mesh_of(const Subject& subject, double noise, unsigned noise_seed) {
+/// How subjects are made worse.
+struct Damage {
+  double noise = 0;         // percent of the diagonal
+  bool is_scanned = false;  // with all else that a scanner does
+};
+
+/// \param seed of what is by chance
+Subject damaged(const Subject& subject, const Damage& damage, unsigned seed) {
   solids::Solid solid;
   solid.points = subject.points;
-  if (noise > 0) solid = solids::with_noise(solid, noise, noise_seed);
+  solid.faces = subject.faces;
+  solid.label = subject.truth;
+  if (damage.is_scanned)
+    solid = solids::scanned(solid, damage.noise, seed);
+  else if (damage.noise > 0)
+    solid = solids::with_noise(std::move(solid), damage.noise, seed);
+  return {subject.name, std::move(solid.points), std::move(solid.faces), std::move(solid.label), subject.surfaces};
+}
+
+/// The mesh of a subject, its faces in order; vertices where the surface touches itself are doubled.
+Mesh mesh_of(const Subject& subject) {
   std::vector<Kernel_point> points;
-  for (const Eigen::Vector3d& p : solid.points) points.emplace_back(p.x(), p.y(), p.z());
+  for (const Eigen::Vector3d& p : subject.points) points.emplace_back(p.x(), p.y(), p.z());
   auto faces = subject.faces;
   namespace PMP = CGAL::Polygon_mesh_processing;
   if (!PMP::is_polygon_soup_a_polygon_mesh(faces)) PMP::orient_polygon_soup(points, faces);
@@ -282,8 +298,7 @@ Labels labels_by(const Method& method, const Mesh& mesh) {
 }
 
 /// Seeds are tried in the order of the faces, as far as these have one size: other numbers shift the seeds.
-double stability(const Subject& subject, const Method& method, double noise, unsigned noise_seed, const Mesh& mesh,
-                 const Labels& labels) {
+double stability(const Subject& subject, const Method& method, const Mesh& mesh, const Labels& labels) {
   std::vector<std::size_t> order(subject.faces.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::shuffle(order.begin(), order.end(), std::mt19937(1));
@@ -292,7 +307,7 @@ double stability(const Subject& subject, const Method& method, double noise, uns
     shuffled.faces.push_back(subject.faces[f]);
     shuffled.truth.push_back(subject.truth[f]);
   }
-  const Labels of_shuffled = labels_by(method, mesh_of(shuffled, noise, noise_seed));
+  const Labels of_shuffled = labels_by(method, mesh_of(shuffled));
   Labels others(labels.size());
   for (std::size_t i = 0; i < order.size(); ++i) others[order[i]] = of_shuffled[i];
   Score score;
@@ -300,14 +315,13 @@ double stability(const Subject& subject, const Method& method, double noise, uns
   return score.overlap;
 }
 
-Score score_of(const Subject& subject, const Method& method, double noise, unsigned noise_seed, bool measures_stability,
-               bool has_numbers) {
-  const Mesh mesh = mesh_of(subject, noise, noise_seed);
+Score score_of(const Subject& subject, const Method& method, bool measures_stability, bool has_numbers) {
+  const Mesh mesh = mesh_of(subject);
   Score score;
   const Stopwatch watch;
   const Labels labels = labels_by(method, mesh);
   score.milliseconds = watch.milliseconds();
-  if (measures_stability) score.stability = stability(subject, method, noise, noise_seed, mesh, labels);
+  if (measures_stability) score.stability = stability(subject, method, mesh, labels);
   score.error = segmentation_measures::Overlaps(labels, subject.truth).rand_index_error();
   score.boundary_error = boundary_error(mesh, labels, subject.truth);
   if (has_numbers) score.numbers = numbers_of(mesh, labels, subject);
@@ -317,7 +331,8 @@ Score score_of(const Subject& subject, const Method& method, double noise, unsig
 
 // ---- Output ----
 
-Result result_of(const std::string& set, const std::string& method, double noise, const std::vector<Score>& scores) {
+Result result_of(const std::string& set, const std::string& method, const Damage& damage,
+                 const std::vector<Score>& scores) {
   Score mean;
   double ratio = 0;
   for (const Score& s : scores) {
@@ -338,7 +353,8 @@ Result result_of(const std::string& set, const std::string& method, double noise
     mean.numbers.within_errors += s.numbers.within_errors;
   }
   Result result("engineering");
-  result.add("set", set).add("method", method).add("meshes", scores.size()).add("noise", noise);
+  result.add("set", set).add("method", method).add("meshes", scores.size()).add("noise", damage.noise);
+  if (damage.is_scanned) result.add("scanned", 1);
   result.add("error", mean.error).add("boundary_error", mean.boundary_error).add("overlap", mean.overlap);
   result.add("matched", mean.matched)
       .add("roughly_matched", mean.roughly_matched)
@@ -363,7 +379,7 @@ int main(int argc, char* argv[]) {
   std::vector<double> noises = {0};
   double edge_length = 0.1;
   unsigned noise_seeds = 1;
-  bool measures_stability = false, has_numbers = false;
+  bool is_scanned = false, measures_stability = false, has_numbers = false;
   std::vector<std::string> names;
   for (const auto& [name, method] : methods()) names.push_back(name);
   app.add_option("--data", data, "folder with NAME_5k.off, NAME_5k.seg, ...; default: solids that are made here")
@@ -375,9 +391,13 @@ int main(int argc, char* argv[]) {
   app.add_option("--noise", noises, "displace the vertices, in percent of the diagonal, one or several")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--noise-seeds", noise_seeds, "how often each solid is displaced, each time otherwise")
+  app.add_option("--noise-seeds", noise_seeds, "how often each solid is displaced or scanned, each time otherwise")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag(
+      "--scan", is_scanned,
+      "make the meshes scan-like: with the noise, one half twice as fine, smoothed, with holes, and with a fifth of "
+      "the triangles at sharp edges missing");
   app.add_flag("--stability", measures_stability,
                "also segment each mesh with its faces numbered at random, and tell how far both agree");
   app.add_flag(
@@ -404,16 +424,18 @@ int main(int argc, char* argv[]) {
           std::printf("\n%-44s %8s %8s %8s %8s %8s %8s %8s %9s\n", (set + ", " + name).c_str(), "Rand", "boundary",
                       "overlap", "at .9", "at .75", "segments", "true", "ms");
           std::vector<Score> scores;
+          const Damage damage = {noise, is_scanned};
+          const bool is_by_chance = noise > 0 || is_scanned;
           for (const Subject& subject : subjects)
-            for (unsigned noise_seed = 1; noise_seed <= (noise > 0 ? noise_seeds : 1); ++noise_seed) {
-              const Score s = score_of(subject, method->second, noise, noise_seed, measures_stability, has_numbers);
+            for (unsigned seed = 1; seed <= (is_by_chance ? noise_seeds : 1); ++seed) {
+              const Score s = score_of(damaged(subject, damage, seed), method->second, measures_stability, has_numbers);
               std::printf("%-44s %8.4f %8.4f %8.4f %8.2f %8.2f %8.0f %8.0f %9.1f\n", subject.name.c_str(), s.error,
                           s.boundary_error, s.overlap, s.matched, s.roughly_matched, s.segments, s.true_segments,
                           s.milliseconds);
               std::fflush(stdout);
               scores.push_back(s);
             }
-          if (!scores.empty()) results.push_back(result_of(set, name, noise, scores));
+          if (!scores.empty()) results.push_back(result_of(set, name, damage, scores));
         }
     print(results);
   } catch (const std::exception& error) {

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -98,6 +99,128 @@ inline Solid with_noise(Solid solid, double percent, unsigned seed = 1) {
   for (Point& p : solid.points)
     for (double& x : p) x += deviation * noise(random);
   return solid;
+}
+
+// ---- Scans ----
+
+using Edge_ends = std::array<std::size_t, 2>;
+
+inline Edge_ends edge_between(std::size_t a, std::size_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Halves the edges that a predicate of their midpoint holds for, and cuts the triangles accordingly.
+template <class Predicate>
+Solid halved_where(const Solid& solid, const Predicate& is_halved) {
+  Solid result = solid;
+  result.faces.clear();
+  result.label.clear();
+  std::map<Edge_ends, std::size_t> middle;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    std::vector<std::size_t> outline, middles;  // corners and middles in turn; only what is there
+    std::array<bool, 3> has_middle = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = solid.faces[f][k], b = solid.faces[f][(k + 1) % 3];
+      outline.push_back(a);
+      const Point point = (solid.points[a] + solid.points[b]) / 2;
+      has_middle[k] = is_halved(point);
+      if (!has_middle[k]) continue;
+      const auto [place, is_new] = middle.try_emplace(edge_between(a, b), result.points.size());
+      if (is_new) result.points.push_back(point);
+      outline.push_back(place->second);
+      middles.push_back(place->second);
+    }
+    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      result.faces.push_back({a, b, c});
+      result.label.push_back(solid.label[f]);
+    };
+    if (middles.size() == 3) {
+      for (std::size_t k = 0; k < 3; ++k) add(outline[2 * k], middles[k], middles[(k + 2) % 3]);
+      add(middles[0], middles[1], middles[2]);
+    } else if (middles.empty()) {
+      add(outline[0], outline[1], outline[2]);
+    } else {  // a fan from a middle
+      const auto first =
+          static_cast<std::size_t>(std::find(outline.begin(), outline.end(), middles[0]) - outline.begin());
+      for (std::size_t k = 1; k + 1 < outline.size(); ++k)
+        add(middles[0], outline[(first + k) % outline.size()], outline[(first + k + 1) % outline.size()]);
+    }
+  }
+  return result;
+}
+
+/// Moves each point half way to the mean of its neighbours, so many times.
+inline Solid smoothed(Solid solid, int times) {
+  std::vector<std::vector<std::size_t>> neighbours(solid.points.size());
+  for (const auto& face : solid.faces)
+    for (std::size_t k = 0; k < 3; ++k) neighbours[face[k]].push_back(face[(k + 1) % 3]);
+  for (int time = 0; time < times; ++time) {
+    const std::vector<Point> before = solid.points;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      if (neighbours[v].empty()) continue;
+      Point sum = Point::Zero();
+      for (const std::size_t w : neighbours[v]) sum += before[w];
+      solid.points[v] = (before[v] + sum / static_cast<double>(neighbours[v].size())) / 2;
+    }
+  }
+  return solid;
+}
+
+/// Leaves out the faces that a predicate of their number holds for.
+template <class Predicate>
+Solid without_faces(Solid solid, const Predicate& is_left_out) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    if (is_left_out(f)) continue;
+    solid.faces[kept] = solid.faces[f];
+    solid.label[kept++] = solid.label[f];
+  }
+  solid.faces.resize(kept);
+  solid.label.resize(kept);
+  return solid;
+}
+
+/// Which faces have an edge where the solid turns by more than an angle, in radians.
+inline std::vector<bool> faces_at_sharp_edges(const Solid& solid, double angle) {
+  const auto normal = [&](std::size_t f) {
+    const auto& face = solid.faces[f];
+    const Point& a = solid.points[face[0]];
+    return Point((solid.points[face[1]] - a).cross(solid.points[face[2]] - a).normalized());
+  };
+  std::map<Edge_ends, std::vector<std::size_t>> faces_of_edge;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      faces_of_edge[edge_between(solid.faces[f][k], solid.faces[f][(k + 1) % 3])].push_back(f);
+  std::vector<bool> is_sharp(solid.faces.size(), false);
+  for (const auto& [edge, faces] : faces_of_edge)
+    if (faces.size() == 2 && normal(faces[0]).dot(normal(faces[1])) < std::cos(angle))
+      for (const std::size_t f : faces) is_sharp[f] = true;
+  return is_sharp;
+}
+
+/// A solid as a scanner sees it: one half meshed twice as finely, every point displaced as by `with_noise()` and smoothed,
+/// which rounds what is sharp; five holes of a twentieth of the diagonal, and a fifth of the triangles missing along sharp
+/// edges.
+inline Solid scanned(const Solid& solid, double percent, unsigned seed = 1) {
+  constexpr int smoothing_steps = 2, holes = 5;
+  constexpr double radius_of_holes = 0.025;       // of the diagonal
+  constexpr double sharp = half_turn * 40 / 180;  // radians
+  constexpr double missing = 0.2;                 // of the faces at sharp edges
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> chance;
+  const Point centre = std::accumulate(solid.points.begin(), solid.points.end(), Point(Point::Zero())) /
+                       static_cast<double>(solid.points.size());
+  const Point side = Point(chance(random) - 0.5, chance(random) - 0.5, chance(random) - 0.5).normalized();
+  const Solid uneven = halved_where(solid, [&](const Point& p) { return (p - centre).dot(side) > 0; });
+  std::vector<Point> hole;
+  for (int i = 0; i < holes; ++i) hole.push_back(uneven.points[random() % uneven.points.size()]);
+  const std::vector<bool> is_sharp = faces_at_sharp_edges(uneven, sharp);
+  const double radius = radius_of_holes * uneven.diagonal();
+  return without_faces(smoothed(with_noise(uneven, percent, seed), smoothing_steps), [&](std::size_t f) {
+    if (is_sharp[f] && chance(random) < missing) return true;
+    return std::any_of(uneven.faces[f].begin(), uneven.faces[f].end(), [&](std::size_t v) {
+      return std::any_of(hole.begin(), hole.end(),
+                         [&](const Point& p) { return (uneven.points[v] - p).norm() < radius; });
+    });
+  });
 }
 
 // ---- Meshing ----
