@@ -66,10 +66,12 @@ Subject subject_of(const solids::Solid& solid, const std::string& meshing) {
   return {solid.name + meshing, solid.points, solid.faces, solid.label, designed_surfaces(solid)};
 }
 
-std::vector<Subject> constructed_solids(double edge_length) {
+/// \param only_even no scanner makes meshes like those of a CAD kernel
+std::vector<Subject> constructed_solids(double edge_length, bool only_even) {
   std::vector<Subject> subjects;
   for (const solids::Solid& solid : solids::all(solids::even(edge_length)))
     subjects.push_back(subject_of(solid, ".even"));
+  if (only_even) return subjects;
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) subjects.push_back(subject_of(solid, ".kernel"));
   return subjects;
 }
@@ -397,7 +399,7 @@ int main(int argc, char* argv[]) {
   app.add_flag(
       "--scan", is_scanned,
       "make the meshes scan-like: with the noise, one half twice as fine, smoothed, with holes, and with a fifth of "
-      "the triangles at sharp edges missing");
+      "the triangles at sharp edges missing; constructed ones evenly meshed alone");
   app.add_flag("--stability", measures_stability,
                "also segment each mesh with its faces numbered at random, and tell how far both agree");
   app.add_flag(
@@ -411,7 +413,7 @@ int main(int argc, char* argv[]) {
   try {
     std::vector<std::pair<std::string, std::vector<Subject>>> sets;
     if (data.empty())
-      sets.emplace_back("constructed", constructed_solids(edge_length));
+      sets.emplace_back("constructed", constructed_solids(edge_length, is_scanned));
     else
       for (const std::string& suffix : suffixes)
         sets.emplace_back("cad" + suffix, solids_in_folder(data, suffix, has_numbers));

@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -132,6 +133,21 @@ TEST(SurfaceTolerance, EstimatesMostOfNoiseThatMakesFineFacesSharp) {
     const double part = 100 / percent * internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise;
     EXPECT_GE(part, 0.75) << clean.name;
     EXPECT_LE(part, 1.1) << clean.name;
+  }
+}
+
+TEST(SurfaceTolerance, EstimatesMostOfNoiseThatIsAlikeFromVertexToVertex) {
+  const solids::Meshing fine = solids::even(0.05);
+  for (const solids::Solid& clean : {solids::box(fine), solids::capsule(fine), solids::cone_on_cylinder(fine)}) {
+    const solids::Solid solid = solids::smoothed(solids::with_noise(clean, 0.3), 2);
+    std::vector<double> distances;
+    for (std::size_t f = 0; f < solid.faces.size(); ++f)
+      distances.push_back(solid.surfaces[solid.label[f]].distance(solid.points[solid.faces[f][0]]));
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    const double deviation = *middle / 0.6745 / solid.diagonal();  // of a normal distribution
+    const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+    EXPECT_NEAR(internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, deviation, 0.3 * deviation) << clean.name;
   }
 }
 

@@ -34,18 +34,44 @@ class Noise_estimate {
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {
     constexpr std::size_t few_vertices = 12, many_vertices = 30;
-    constexpr double part_of_few = 0.02, part_of_many = 0.05;
+    constexpr double part_of_few = 0.02;
     // From a low quantile of the best of five fits to the standard deviation of the vertices.
     constexpr double correction_of_few = 2.5, correction_of_many = 1.25;
     const double round = quantile(part_of_few, [&](Index f) { return patches_.neighbourhood(f, few_vertices); });
     const double flat =
         quantile(part_of_few, [&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
     if (correction_of_few * std::min(round, flat) <= Surface_tolerance::cad_exactness) return 0;
-    return correction_of_many *
-           quantile(part_of_many, [&](Index f) { return patches_.neighbourhood(f, many_vertices); });
+    const double deviation = deviation_of_many(many_vertices);
+    return std::max(correction_of_many * deviation, deviation_of_smooth_noise(many_vertices, deviation));
   }
 
  private:
+  /// Of neighbourhoods of so many vertices.
+  double deviation_of_many(std::size_t vertices) {
+    constexpr double part = 0.05;
+    return quantile(part, [&](Index f) { return patches_.neighbourhood(f, vertices); });
+  }
+
+  /// A scanner's noise is smooth: small neighbourhoods follow it. What wider ones leave unexplained grows less and less until
+  /// it is all of the noise. On a free form, or where neighbourhoods reach beyond their surface, it does not cease to grow:
+  /// 0 then.
+  double deviation_of_smooth_noise(std::size_t vertices, double deviation) {
+    constexpr std::size_t most_vertices = 500;
+    constexpr double first_growth = 1.45;  // that twice the vertices may bring; 1.4 for noise smoothed by two steps
+    constexpr double no_growth = 1.15;     // what it is for independent noise
+    constexpr double correction = 1.15;    // as for many vertices
+    double last_growth = first_growth;
+    for (vertices *= 2; vertices < most_vertices; vertices *= 2) {
+      const double wider = deviation_of_many(vertices);
+      const double growth = wider / std::max(deviation, std::numeric_limits<double>::min());
+      if (growth <= no_growth) return correction * wider;
+      if (!(growth < last_growth)) break;
+      last_growth = growth;
+      deviation = wider;
+    }
+    return 0;
+  }
+
   /// A quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh; 0 if
   /// there are none.
   template <class Neighbourhood>
