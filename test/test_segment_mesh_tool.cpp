@@ -715,6 +715,20 @@ TEST_F(Segment_mesh_tool, ReportsTheErrorsOfSurfacesAndWhatIsMadeRegular) {
   expect_failure(1, "give --regular, too", {"cube.off", "--engineering", "--regular-angle", "1"});
 }
 
+TEST_F(Segment_mesh_tool, ReckonsWithTheNoiseThatIsGivenAndReportsIt) {
+  write("cube.off", cube_of_separate_squares(4));
+  const auto noise_of = [&](const std::vector<std::string>& arguments) {
+    EXPECT_EQ(run(std::vector<std::string>{"cube.off", "--engineering", "--report", "c.json"} + arguments).exit_code,
+              0);
+    return nlohmann::json::parse(content_of(path("c.json")))["noise"].get<double>();
+  };
+  EXPECT_EQ(noise_of({}), 0);
+  EXPECT_EQ(noise_of({"--noise", "0"}), 0);
+  EXPECT_NEAR(noise_of({"--noise", "0.01"}), 0.01, 1e-12);
+  expect_failure(1, "--engineering", {"cube.off", "--noise", "0.01"});
+  expect_failure(1, "--noise", {"cube.off", "--engineering", "--noise", "-1"});
+}
+
 TEST_F(Segment_mesh_tool, EdgesSharperThanAnAngleAreWalls) {
   constexpr std::size_t n = 5;
   write("cube.off", cube_of_separate_squares(n));

@@ -72,6 +72,7 @@ struct Options : Choices {
 
   std::vector<std::string> seeds;  ///< see `seed_argument()`
   bool is_engineering = false, is_regular = false;
+  std::optional<double> noise;                          ///< standard deviation of the vertices, in the mesh's unit
   std::optional<double> regular_length, regular_angle;  ///< in the mesh's unit, in degrees
   std::optional<double> constraints_angle;              ///< in degrees
 

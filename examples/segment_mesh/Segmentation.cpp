@@ -111,11 +111,13 @@ Segmentation segment_into_surfaces(const Dual& mesh, const Options& options, Sta
   RW::Surface_segmentation numbers;
   const auto by_shape = [numbers](const RW::Merge_tree& tree) { return numbers.stop(tree); };
   numbers.number_of_segments = options.segments;
+  if (options.noise) numbers.noise = *options.noise / mesh.unit();
   const auto stop = [numbers](const RW::Merge_tree& tree) { return numbers.stop(tree); };
   const auto callback = stages.start("segmentation");
   const auto hierarchy = RW::hierarchy_of_surfaces(mesh, numbers, CGAL::parameters::callback(callback));
   stages.split(hierarchy.report().stages);
   Segmentation result = segmentation_of(hierarchy, mesh.mesh(), stop, by_shape);
+  result.noise = hierarchy.report().noise * mesh.unit();
   const std::size_t segments = *std::max_element(result.label.begin(), result.label.end()) + 1;
   result.surfaces = RW::segment_surfaces(mesh, face_map(mesh.mesh(), result.label), segments, numbers.noise);
   if (options.is_regular) {

@@ -28,9 +28,10 @@ struct Segmentation {
   std::vector<std::vector<double>> probabilities;  ///< for each of them and each face, if asked for
   std::size_t seeds = 0, walls = 0, unseeded_components = 0, island_faces = 0, degenerate_faces = 0;
   bool has_heavy_noise = false;
-  RW_segmentation::Merge_tree tree;                         ///< empty unless fragments were merged
-  std::size_t suggested = 0;                                ///< segments by the shape, whatever was asked for; likewise
-  std::vector<std::size_t> fragment;                        ///< of each face, likewise
+  double noise = 0;                   ///< of the vertices, in the mesh's unit; only for parts of machines
+  RW_segmentation::Merge_tree tree;   ///< empty unless fragments were merged
+  std::size_t suggested = 0;          ///< segments by the shape, whatever was asked for; likewise
+  std::vector<std::size_t> fragment;  ///< of each face, likewise
   std::vector<RW_segmentation::Analytic_surface> surfaces;  ///< of each label; only for parts of machines
   std::vector<RW_segmentation::Surface_snap> snaps;         ///< what was made regular, if that was asked for
 };

@@ -178,6 +178,13 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->excludes(coarse)
       ->excludes(paper)
       ->group("Automatic segments");
+  app.add_option(
+         "--noise", options.noise,
+         "How far vertices are off their surfaces for --engineering: their standard deviation, in the mesh's unit,\n"
+         "instead of an estimate; --report tells what was reckoned with")
+      ->check(CLI::NonNegativeNumber)
+      ->needs("--engineering")
+      ->group("Automatic segments");
   app.add_flag(
          "--regular", options.is_regular,
          "Makes surfaces that are nearly parallel, perpendicular, coplanar, coaxial or equal in their radii exactly\n"

@@ -81,6 +81,7 @@ inline Json report_of(const std::string& mesh, const mesh_files::Polygon_soup& s
   if (!result.surfaces.empty())
     for (Json& segment : report["segments"])
       segment["surface"] = surface_of(result.surfaces[segment["label"].get<std::size_t>()]);
+  if (!result.surfaces.empty()) report["noise"] = result.noise;
   if (!result.snaps.empty()) report["regular"] = snaps_of(result.snaps);
   return report;
 }

@@ -22,6 +22,7 @@ struct Segmentation_report {
   std::size_t degenerate_faces = 0;  ///< faces without area
   std::size_t island_faces = 0;      ///< faces that the walk left apart from their fragment, moved to a neighbour
   bool has_heavy_noise = false;      ///< the vertices were smoothed to see the shape, see `Normal_smoothing`
+  double noise = 0;                  ///< by surfaces: standard deviation of the vertices, in parts of the diagonal
 
   /// A stage of the computation.
   struct Stage {

@@ -72,6 +72,7 @@ nb::dict report(const Hierarchy& hierarchy) {
   result["degenerate_faces"] = known.degenerate_faces;
   result["island_faces"] = known.island_faces;
   result["has_heavy_noise"] = known.has_heavy_noise;
+  result["noise"] = known.noise;
   for (const auto& stage : known.stages) seconds[stage.name.c_str()] = stage.seconds;
   result["seconds"] = seconds;
   return result;

@@ -40,6 +40,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   clock.note("walk");
 
   report.components = Components(mesh.graph(), [&](Dual_mesh::Index e) { return !mesh.is_wall(e); }).count;
+  report.noise = tolerance.noise;
   report.seeds = regions.surfaces.size();
   report.fragments = *std::max_element(result.fragment_of_face.begin(), result.fragment_of_face.end()) + 1;
   report.degenerate_faces = mesh.number_of_degenerate_faces();
