@@ -26,26 +26,33 @@ class Noise_estimate {
 
   /// \param expected what neighbourhoods are to reckon with: they end at edges that it does not explain
   Noise_estimate(const Dual_mesh& mesh, const Surface_tolerance& expected)
-      : number_of_faces_(mesh.number_of_faces()), patches_(mesh, edge_angles(mesh), [&](Index e) {
+      : number_of_faces_(mesh.number_of_faces()),
+        expects_noise_(expected.is_noisy()),
+        patches_(mesh, edge_angles(mesh), [&](Index e) {
           constexpr double sharp = radians(60);  // what a little noise hardly makes of flat edges
           return std::max(sharp, expected.angle_of_noise(mesh.graph().faces_of(e)));
         }) {}
 
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {
-    constexpr std::size_t few_vertices = 12, many_vertices = 30;
-    constexpr double part_of_few = 0.02;
-    // From a low quantile of the best of five fits to the standard deviation of the vertices.
-    constexpr double correction_of_few = 2.5, correction_of_many = 1.25;
-    const double round = quantile(part_of_few, [&](Index f) { return patches_.neighbourhood(f, few_vertices); });
-    const double flat =
-        quantile(part_of_few, [&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
-    if (correction_of_few * std::min(round, flat) <= Surface_tolerance::cad_exactness) return 0;
+    constexpr std::size_t many_vertices = 30;
+    constexpr double correction = 1.25;  // from the low quantile of the best of five fits
+    if (!expects_noise_ && is_exact()) return 0;
     const double deviation = deviation_of_many(many_vertices);
-    return std::max(correction_of_many * deviation, deviation_of_smooth_noise(many_vertices, deviation));
+    return std::max(correction * deviation, deviation_of_smooth_noise(many_vertices, deviation));
   }
 
  private:
+  /// Whether some small neighbourhoods lie on a surface.
+  bool is_exact() {
+    constexpr std::size_t few_vertices = 12;
+    constexpr double part = 0.02;
+    constexpr double correction = 2.5;  // likewise
+    const double round = quantile(part, [&](Index f) { return patches_.neighbourhood(f, few_vertices); });
+    const double flat = quantile(part, [&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
+    return correction * std::min(round, flat) <= Surface_tolerance::cad_exactness;
+  }
+
   /// Of neighbourhoods of so many vertices.
   double deviation_of_many(std::size_t vertices) {
     constexpr double part = 0.05;
@@ -104,6 +111,7 @@ class Noise_estimate {
   }
 
   std::size_t number_of_faces_;
+  bool expects_noise_;
   Face_patches patches_;
 };
 
