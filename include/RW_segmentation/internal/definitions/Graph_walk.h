@@ -33,18 +33,21 @@ RW_SEGMENTATION_INLINE void Graph_walk::solve() {
 }
 
 /// Gives each face the label of the largest sum of its seeds' columns. False where digits were lost.
-RW_SEGMENTATION_INLINE bool Graph_walk::compare_columns(Walk_labels& labels) const {
+/// \param prepare brings the columns of a stretch of faces up to date
+template <class Prepare>
+bool Graph_walk::compare_columns(Walk_labels& labels, const Prepare& prepare) const {
   std::vector<std::vector<const double*>> columns_of(labels.number_of_seed_labels());
   for (const auto& column : columns_.columns())
     columns_of[labels.rank_of(seeds_.label_of(column.face))].push_back(column.potential.data());
   return labels.compare_sums(network(), columns_of, seeded_components(network(), seeds_),
-                             10 * Seed_columns::accepted_error);
+                             10 * Seed_columns::accepted_error, prepare);
 }
 
 /// Answers edits. False where that is impossible, inaccurate or not worth it.
 RW_SEGMENTATION_INLINE bool Graph_walk::label_by_columns(Walk_labels& labels) {
   try {
-    if (columns_.update(network(), factor_, seeds_) && compare_columns(labels)) return true;
+    const auto compare = [&](const auto& prepare) { return compare_columns(labels, prepare); };
+    if (columns_.update(network(), factor_, seeds_, compare)) return true;
   } catch (...) {  // some columns may know of an edit that others do not
     columns_.clear();
     throw;

@@ -54,7 +54,8 @@ class Graph_walk : private Seeded_walk {
  private:
   void solve();
   bool label_by_columns(Walk_labels& labels);
-  bool compare_columns(Walk_labels& labels) const;
+  template <class Prepare>
+  bool compare_columns(Walk_labels& labels, const Prepare& prepare) const;
 
   Seed_columns columns_;
   std::map<Label, std::vector<double>> known_potentials_;  // those asked for since the last solve

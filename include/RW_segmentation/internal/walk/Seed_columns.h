@@ -5,6 +5,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
+#include <RW_segmentation/internal/solver/front_kernels.h>
 #include <RW_segmentation/internal/walk/Seed_set.h>
 #include <RW_segmentation/internal/walk/Walk_factor.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
@@ -52,8 +53,13 @@ class Seed_columns {
   /// Columns that have been added without a factorisation.
   std::size_t number_added() const { return number_added_; }
 
-  /// Brings the columns to the seeds. False where that is impossible, inaccurate or not worth it; they are of no use then.
-  bool update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds);
+  /// Brings the columns to the seeds.
+  /// \param compare called as `compare(prepare)` when all is known but the potentials that the last edit leaves: these
+  /// are there once `prepare(begin, end)` has been called for a stretch of faces, so that they are read while they are
+  /// in the cache. Returns whether they are right.
+  /// \returns false where that is impossible, inaccurate or not worth it; the columns are of no use then
+  template <class Compare>
+  bool update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds, const Compare& compare);
 
  private:
   /// What is left between the seeds with a column when all other faces are eliminated, in the order of the columns.
@@ -81,6 +87,15 @@ class Seed_columns {
     }
   };
 
+  /// What one edit does to the potentials, face by face.
+  struct Change {
+    enum class Of { nothing, addition, removal } of = Of::nothing;
+    Eigen::VectorXd reaches;      ///< of an addition: what its source function has at the other seeds
+    double resistance = 0;        ///< of an addition: between its face and the other seeds
+    Eigen::VectorXd share;        ///< by column: of the column that is added, which is the last one, or that leaves
+    std::vector<double> leaving;  ///< the column of a removal
+  };
+
   bool has_column(Index face) const {
     return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.face == face; });
   }
@@ -96,18 +111,30 @@ class Seed_columns {
   void fill(const Walk_network& network, const Walk_factor& factor);
   std::vector<double> source_function(Index s, const Walk_network& network, const Walk_factor& factor) const;
   std::vector<double> base_values(const std::vector<Index>& base, std::vector<double> current) const;
-  bool add(Index s, std::vector<double> h, const Walk_network& network);
-  bool remove(std::size_t place, const Walk_network& network);
+  bool add(Index s, std::vector<double> h, Change& change);
+  bool remove(std::size_t place, const Walk_network& network, Change& change);
+  void make(const Change& change, std::size_t begin, std::size_t end);
+  void make_addition(const Change& change, std::size_t begin, std::size_t end);
+
+  /// Makes a change at all faces.
+  void finish(Change& change, const Walk_network& network) {
+    if (change.of == Change::Of::nothing) return;
+    for_stretches(network, [&](std::size_t begin, std::size_t end) { make(change, begin, end); });
+    change = {};
+  }
 
   std::vector<Column> columns_;
   Eigen::MatrixXd base_conductances_;  // between the seeds that the factor absorbs at, where there are columns
   Between_seeds between_seeds_;
   std::size_t number_added_ = 0;
+  Instruction_set instructions_ = best_instruction_set();
 };
 
 // -------------------------------------------------------------------------------------------------------------------
 
-inline bool Seed_columns::update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds) {
+template <class Compare>
+bool Seed_columns::update(const Walk_network& network, const Walk_factor& factor, const Seed_set& seeds,
+                          const Compare& compare) {
   if (!factor.is_made() || seeds.size() > most_columns) return false;
   std::vector<Index> present = factor.base(), added;
   if (!empty()) {
@@ -123,11 +150,17 @@ inline bool Seed_columns::update(const Walk_network& network, const Walk_factor&
     fill(network, factor);
   }
   // Additions first: a removal must leave a seed behind.
-  for (const Index face : added)
-    if (!add(face, source_function(face, network, factor), network)) return false;
-  for (std::size_t place = columns_.size(); place-- > 0;)
-    if (!seeds.contains(columns_[place].face) && !remove(place, network)) return false;
-  return true;
+  Change change;
+  for (const Index face : added) {
+    finish(change, network);
+    if (!add(face, source_function(face, network, factor), change)) return false;
+  }
+  for (std::size_t place = columns_.size(); place-- > 0;) {
+    if (seeds.contains(columns_[place].face)) continue;
+    finish(change, network);
+    if (!remove(place, network, change)) return false;
+  }
+  return compare([&](std::size_t begin, std::size_t end) { make(change, begin, end); });
 }
 
 /// Makes the columns of the seeds that the factor absorbs at.
@@ -221,47 +254,26 @@ inline std::vector<double> Seed_columns::base_values(const std::vector<Index>& b
   return value;
 }
 
-/// A column for s, taken out of the other columns. False where too many digits would be lost.
+/// A column for s, to be taken out of the other columns. False where too many digits would be lost.
 /// \param h the source function of s
-inline bool Seed_columns::add(Index s, std::vector<double> h, const Walk_network& network) {
+inline bool Seed_columns::add(Index s, std::vector<double> h, Change& change) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   if (h.empty()) return false;
-  double error = 4 * epsilon * h[s];
+  double error = 4 * epsilon * h[s], resistance = h[s];
   const auto n = static_cast<Eigen::Index>(columns_.size());
-  Eigen::VectorXd reaches(n);  // the present seeds; the column of one is 0 at the others
+  Eigen::VectorXd reaches(n);                // the present seeds; the column of one is 0 at the others
+  Eigen::VectorXd share(n), share_error(n);  // what walks from s meet first
   for (Eigen::Index c = 0; c < n; ++c) {
     const Column& column = columns_[static_cast<std::size_t>(c)];
     reaches[c] = h[column.face];
     error += reaches[c] * column.error;
-  }
-  for_stretches(network, [&](std::size_t begin, std::size_t end) {
-    for (Eigen::Index c = 0; c < n; ++c) {
-      if (reaches[c] == 0) continue;
-      const double* potential = columns_[static_cast<std::size_t>(c)].potential.data();
-      for (std::size_t f = begin; f < end; ++f) h[f] -= reaches[c] * potential[f];
-    }
-  });
-  const double resistance = h[s];  // between s and the seeds
-  if (!(resistance > 0 && error < accepted_error * resistance)) return false;
-  error /= resistance;
-
-  Eigen::VectorXd share(n), share_error(n);  // what walks from s meet first
-  for (Eigen::Index c = 0; c < n; ++c) {
-    Column& column = columns_[static_cast<std::size_t>(c)];
     share[c] = column.potential[s];
     share_error[c] = column.error;
-    h[column.face] = 0;
-    column.error += share[c] * error;
+    resistance -= reaches[c] * share[c];
   }
-  for_stretches(network, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) h[f] = std::clamp(h[f] / resistance, 0., 1.);
-    for (Eigen::Index c = 0; c < n; ++c) {
-      double* potential = columns_[static_cast<std::size_t>(c)].potential.data();
-      for (std::size_t f = begin; f < end; ++f) potential[f] = std::max(0., potential[f] - share[c] * h[f]);
-    }
-  });
-  for (Column& column : columns_) column.potential[s] = 0;
-  h[s] = 1;
+  if (!(resistance > 0 && error < accepted_error * resistance)) return false;
+  error /= resistance;
+  for (Eigen::Index c = 0; c < n; ++c) columns_[static_cast<std::size_t>(c)].error += share[c] * error;
   columns_.push_back({s, std::move(h), error});
 
   between_seeds_.error += epsilon * between_seeds_.conductance +
@@ -270,12 +282,13 @@ inline bool Seed_columns::add(Index s, std::vector<double> h, const Walk_network
   between_seeds_.conductance = between_seeds_.conductance.cwiseMax(0);
   between_seeds_.append(share / resistance, share_error / resistance);
   ++number_added_;
+  change = {Change::Of::addition, std::move(reaches), resistance, std::move(share), {}};
   return true;
 }
 
 /// Shares the column of a seed among the seeds that walks meet after it. False where too many digits would be lost.
-inline bool Seed_columns::remove(std::size_t place, const Walk_network& network) {
-  const Column leaving = std::move(columns_[place]);
+inline bool Seed_columns::remove(std::size_t place, const Walk_network& network, Change& change) {
+  Column leaving = std::move(columns_[place]);
   columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(place));
   const auto [current, current_error] = between_seeds_.remove(static_cast<Eigen::Index>(place));
   const double outflow = current.sum();
@@ -283,7 +296,7 @@ inline bool Seed_columns::remove(std::size_t place, const Walk_network& network)
     return std::none_of(columns_.begin(), columns_.end(), [&](const Column& column) {
       return network.component.of[column.face] == network.component.of[leaving.face];
     });
-  const Eigen::VectorXd share = current / outflow;
+  Eigen::VectorXd share = current / outflow;
   const Eigen::VectorXd share_error = (current_error + share * current_error.sum()) / outflow;
   between_seeds_.conductance += current * share.transpose();
   between_seeds_.conductance.diagonal().setZero();
@@ -294,15 +307,37 @@ inline bool Seed_columns::remove(std::size_t place, const Walk_network& network)
     columns_[c].error += share[i] * leaving.error + share_error[i];
     if (!(columns_[c].error < accepted_error)) return false;
   }
-  for_stretches(network, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const double part = share[static_cast<Eigen::Index>(c)];
-      if (part == 0) continue;
-      double* potential = columns_[c].potential.data();
-      for (std::size_t f = begin; f < end; ++f) potential[f] += part * leaving.potential[f];
-    }
-  });
+  change = {Change::Of::removal, {}, 0, std::move(share), std::move(leaving.potential)};
   return true;
+}
+
+/// Makes a change at the faces from `begin` to less than `end`.
+inline void Seed_columns::make(const Change& change, std::size_t begin, std::size_t end) {
+  if (change.of == Change::Of::addition) return make_addition(change, begin, end);
+  if (change.of == Change::Of::nothing) return;
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    if (const double share = change.share[static_cast<Eigen::Index>(c)]; share != 0)
+      subtract_multiple(-share, &change.leaving[begin], end - begin, &columns_[c].potential[begin], instructions_);
+}
+
+inline void Seed_columns::make_addition(const Change& change, std::size_t begin, std::size_t end) {
+  const std::size_t others = columns_.size() - 1, count = end - begin;
+  Column& added = columns_.back();
+  double* const x = &added.potential[begin];
+  for (std::size_t c = 0; c < others; ++c)
+    if (const double reaches = change.reaches[static_cast<Eigen::Index>(c)]; reaches != 0)
+      subtract_multiple(reaches, &columns_[c].potential[begin], count, x, instructions_);
+  for (std::size_t i = 0; i < count; ++i) x[i] = std::clamp(x[i] / change.resistance, 0., 1.);
+  for (std::size_t c = 0; c < others; ++c)
+    subtract_share(change.share[static_cast<Eigen::Index>(c)], x, count, &columns_[c].potential[begin], instructions_);
+  const auto hold = [&](Index face, double value_of_added) {  // whatever rounding has made of it
+    if (face >= begin && face < end) added.potential[face] = value_of_added;
+  };
+  for (std::size_t c = 0; c < others; ++c) {
+    hold(columns_[c].face, 0);
+    if (added.face >= begin && added.face < end) columns_[c].potential[added.face] = 0;
+  }
+  hold(added.face, 1);
 }
 
 }  // namespace RW_segmentation::internal

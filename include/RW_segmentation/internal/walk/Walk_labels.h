@@ -95,9 +95,11 @@ class Walk_labels {
   /// Takes the potentials of all labels, each the sum of the columns of its seeds.
   /// \param columns_of by rank: potentials by face
   /// \param is_seeded by component
+  /// \param prepare called as `prepare(begin, end)` before the potentials of a stretch of faces are read
   /// \returns false if those of some reached face do not add up to 1 within `tolerance`: digits were lost
+  template <class Prepare>
   bool compare_sums(const Walk_network& network, const std::vector<std::vector<const double*>>& columns_of,
-                    const std::vector<char>& is_seeded, double tolerance);
+                    const std::vector<char>& is_seeded, double tolerance, const Prepare& prepare);
 
   /// Gives each component without a seed the next unused label.
   /// \returns how many there are
@@ -113,12 +115,13 @@ class Walk_labels {
   std::vector<double> largest_;            // by face
 };
 
-inline bool Walk_labels::compare_sums(const Walk_network& network,
-                                      const std::vector<std::vector<const double*>>& columns_of,
-                                      const std::vector<char>& is_seeded, double tolerance) {
+template <class Prepare>
+bool Walk_labels::compare_sums(const Walk_network& network, const std::vector<std::vector<const double*>>& columns_of,
+                               const std::vector<char>& is_seeded, double tolerance, const Prepare& prepare) {
   const Instruction_set instructions = best_instruction_set();
   std::atomic<bool> sums_are_right = true;
   for_stretches(network, [&](std::size_t begin, std::size_t end) {
+    prepare(begin, end);  // here, while they are in the cache
     const std::size_t count = end - begin;
     std::array<double, faces_at_a_time> sum, total, best;
     std::fill_n(&largest_[begin], count, -1.);
