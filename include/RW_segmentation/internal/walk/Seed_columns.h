@@ -328,16 +328,16 @@ inline void Seed_columns::make_addition(const Change& change, std::size_t begin,
     if (const double reaches = change.reaches[static_cast<Eigen::Index>(c)]; reaches != 0)
       subtract_multiple(reaches, &columns_[c].potential[begin], count, x, instructions_);
   for (std::size_t i = 0; i < count; ++i) x[i] = std::clamp(x[i] / change.resistance, 0., 1.);
-  for (std::size_t c = 0; c < others; ++c)
-    subtract_share(change.share[static_cast<Eigen::Index>(c)], x, count, &columns_[c].potential[begin], instructions_);
-  const auto hold = [&](Index face, double value_of_added) {  // whatever rounding has made of it
-    if (face >= begin && face < end) added.potential[face] = value_of_added;
+  const auto hold = [&](Index face, std::vector<double>& potential, double value) {  // whatever rounding has made of it
+    if (face >= begin && face < end) potential[face] = value;
   };
+  for (std::size_t c = 0; c < others; ++c) hold(columns_[c].face, added.potential, 0);
   for (std::size_t c = 0; c < others; ++c) {
-    hold(columns_[c].face, 0);
-    if (added.face >= begin && added.face < end) columns_[c].potential[added.face] = 0;
+    std::vector<double>& potential = columns_[c].potential;
+    subtract_share(change.share[static_cast<Eigen::Index>(c)], x, count, &potential[begin], instructions_);
+    hold(added.face, potential, 0);
   }
-  hold(added.face, 1);
+  hold(added.face, added.potential, 1);
 }
 
 }  // namespace RW_segmentation::internal
