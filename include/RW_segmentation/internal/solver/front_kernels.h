@@ -278,13 +278,7 @@ RW_SEGMENTATION_ALWAYS_INLINE void select_largest(const double* potential, doubl
   }
 }
 
-/// to -= factor * from
 RW_SEGMENTATION_ALWAYS_INLINE void subtract_multiple(double factor, const double* from, std::size_t count, double* to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] -= factor * from[i];
-}
-
-/// to -= factor * from, and what rounding makes negative becomes 0.
-RW_SEGMENTATION_ALWAYS_INLINE void subtract_share(double factor, const double* from, std::size_t count, double* to) {
   for (std::size_t i = 0; i < count; ++i) {
     const double left = to[i] - factor * from[i];
     to[i] = left > 0 ? left : 0;
@@ -344,14 +338,6 @@ __attribute__((target("avx2,fma"))) inline void subtract_multiple_avx2(double fa
 __attribute__((target("avx512f,fma"))) inline void subtract_multiple_avx512(double factor, const double* from,
                                                                             std::size_t count, double* to) {
   kernel::subtract_multiple(factor, from, count, to);
-}
-__attribute__((target("avx2,fma"))) inline void subtract_share_avx2(double factor, const double* from,
-                                                                    std::size_t count, double* to) {
-  kernel::subtract_share(factor, from, count, to);
-}
-__attribute__((target("avx512f,fma"))) inline void subtract_share_avx512(double factor, const double* from,
-                                                                         std::size_t count, double* to) {
-  kernel::subtract_share(factor, from, count, to);
 }
 template <std::size_t labels>
 __attribute__((target("avx2,fma"))) void substitute_avx2(const double* transition, std::size_t pivots, std::size_t rows,
@@ -432,7 +418,7 @@ inline void select_largest(const double* potential, double rank, std::size_t cou
   kernel::select_largest(potential, rank, count, largest, best, total);
 }
 
-/// to -= factor * from
+/// to -= factor * from, where both are potentials: what rounding makes negative becomes 0.
 inline void subtract_multiple(double factor, const double* from, std::size_t count, double* to, Instruction_set set) {
 #ifdef RW_SEGMENTATION_X86_DISPATCH
   if (set == Instruction_set::avx512) return subtract_multiple_avx512(factor, from, count, to);
@@ -440,16 +426,6 @@ inline void subtract_multiple(double factor, const double* from, std::size_t cou
 #endif
   static_cast<void>(set);
   kernel::subtract_multiple(factor, from, count, to);
-}
-
-/// to -= factor * from, and what rounding makes negative becomes 0.
-inline void subtract_share(double factor, const double* from, std::size_t count, double* to, Instruction_set set) {
-#ifdef RW_SEGMENTATION_X86_DISPATCH
-  if (set == Instruction_set::avx512) return subtract_share_avx512(factor, from, count, to);
-  if (set == Instruction_set::avx2) return subtract_share_avx2(factor, from, count, to);
-#endif
-  static_cast<void>(set);
-  kernel::subtract_share(factor, from, count, to);
 }
 
 template <std::size_t labels>

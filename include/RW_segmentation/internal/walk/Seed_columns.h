@@ -89,7 +89,7 @@ class Seed_columns {
 
   /// What one edit does to the potentials, face by face.
   struct Change {
-    enum class Of { nothing, addition, removal } of = Of::nothing;
+    enum class Kind { none, addition, removal } kind = Kind::none;
     Eigen::VectorXd reaches;      ///< of an addition: what its source function has at the other seeds
     double resistance = 0;        ///< of an addition: between its face and the other seeds
     Eigen::VectorXd share;        ///< by column: of the column that is added, which is the last one, or that leaves
@@ -118,7 +118,7 @@ class Seed_columns {
 
   /// Makes a change at all faces.
   void finish(Change& change, const Walk_network& network) {
-    if (change.of == Change::Of::nothing) return;
+    if (change.kind == Change::Kind::none) return;
     for_stretches(network, [&](std::size_t begin, std::size_t end) { make(change, begin, end); });
     change = {};
   }
@@ -127,7 +127,6 @@ class Seed_columns {
   Eigen::MatrixXd base_conductances_;  // between the seeds that the factor absorbs at, where there are columns
   Between_seeds between_seeds_;
   std::size_t number_added_ = 0;
-  Instruction_set instructions_ = best_instruction_set();
 };
 
 // -------------------------------------------------------------------------------------------------------------------
@@ -282,7 +281,7 @@ inline bool Seed_columns::add(Index s, std::vector<double> h, Change& change) {
   between_seeds_.conductance = between_seeds_.conductance.cwiseMax(0);
   between_seeds_.append(share / resistance, share_error / resistance);
   ++number_added_;
-  change = {Change::Of::addition, std::move(reaches), resistance, std::move(share), {}};
+  change = {Change::Kind::addition, std::move(reaches), resistance, std::move(share), {}};
   return true;
 }
 
@@ -307,26 +306,28 @@ inline bool Seed_columns::remove(std::size_t place, const Walk_network& network,
     columns_[c].error += share[i] * leaving.error + share_error[i];
     if (!(columns_[c].error < accepted_error)) return false;
   }
-  change = {Change::Of::removal, {}, 0, std::move(share), std::move(leaving.potential)};
+  change = {Change::Kind::removal, {}, 0, std::move(share), std::move(leaving.potential)};
   return true;
 }
 
 /// Makes a change at the faces from `begin` to less than `end`.
 inline void Seed_columns::make(const Change& change, std::size_t begin, std::size_t end) {
-  if (change.of == Change::Of::addition) return make_addition(change, begin, end);
-  if (change.of == Change::Of::nothing) return;
+  if (change.kind == Change::Kind::addition) return make_addition(change, begin, end);
+  if (change.kind == Change::Kind::none) return;
+  const Instruction_set instructions = best_instruction_set();
   for (std::size_t c = 0; c < columns_.size(); ++c)
     if (const double share = change.share[static_cast<Eigen::Index>(c)]; share != 0)
-      subtract_multiple(-share, &change.leaving[begin], end - begin, &columns_[c].potential[begin], instructions_);
+      subtract_multiple(-share, &change.leaving[begin], end - begin, &columns_[c].potential[begin], instructions);
 }
 
 inline void Seed_columns::make_addition(const Change& change, std::size_t begin, std::size_t end) {
+  const Instruction_set instructions = best_instruction_set();
   const std::size_t others = columns_.size() - 1, count = end - begin;
   Column& added = columns_.back();
   double* const x = &added.potential[begin];
   for (std::size_t c = 0; c < others; ++c)
     if (const double reaches = change.reaches[static_cast<Eigen::Index>(c)]; reaches != 0)
-      subtract_multiple(reaches, &columns_[c].potential[begin], count, x, instructions_);
+      subtract_multiple(reaches, &columns_[c].potential[begin], count, x, instructions);
   for (std::size_t i = 0; i < count; ++i) x[i] = std::clamp(x[i] / change.resistance, 0., 1.);
   const auto hold = [&](Index face, std::vector<double>& potential, double value) {  // whatever rounding has made of it
     if (face >= begin && face < end) potential[face] = value;
@@ -334,7 +335,7 @@ inline void Seed_columns::make_addition(const Change& change, std::size_t begin,
   for (std::size_t c = 0; c < others; ++c) hold(columns_[c].face, added.potential, 0);
   for (std::size_t c = 0; c < others; ++c) {
     std::vector<double>& potential = columns_[c].potential;
-    subtract_share(change.share[static_cast<Eigen::Index>(c)], x, count, &potential[begin], instructions_);
+    subtract_multiple(change.share[static_cast<Eigen::Index>(c)], x, count, &potential[begin], instructions);
     hold(added.face, potential, 0);
   }
   hold(added.face, added.potential, 1);
