@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -186,6 +187,18 @@ TEST(FrontKernels, SubstituteEachFaceByTheSharesOfLaterOnes) {
   expect_substitutes_as_defined<4>();
   expect_substitutes_as_defined<8>();
   expect_substitutes_as_defined<16>();
+}
+
+TEST(FrontKernels, SubtractMultiplesAndLeaveNothingNegative) {
+  std::mt19937 random(7);
+  const std::size_t count = 1003;
+  const auto from = random_numbers(count, random), start = random_numbers(count, random);
+  for (const double factor : {0.75, -0.75})
+    for (const Instruction_set set : instruction_sets()) {
+      std::vector<double> to = start;
+      subtract_multiple(factor, from.data(), count, to.data(), set);
+      for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(to[i], std::max(0., start[i] - factor * from[i]), 1e-15);
+    }
 }
 
 TEST(FrontKernels, SelectTheLargestPotentialAndTheFirstOfEqualOnes) {

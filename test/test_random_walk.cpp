@@ -546,6 +546,32 @@ TEST(SeedEditing, AnswersStrokesOfHundredsOfFaces) {
   EXPECT_EQ(walk.report().columns_added, 0u);
 }
 
+TEST(SeedEditing, GivesTheSamePotentialsForAnyNumberOfThreads) {
+  std::mt19937 random(13);
+  networks::Network network{networks::triangulated_torus(80), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 4, random);
+  const auto faces = networks::random_faces(network.graph, 14, random);
+  const auto edited = [&] {
+    internal::Graph_walk walk(network.graph, network.conductances);
+    for (std::size_t l = 0; l < 10; ++l) walk.add_seed(faces[l], l);
+    walk.labels();
+    for (std::size_t l = 10; l < 14; ++l) {
+      walk.add_seed(faces[l], l);
+      walk.labels();
+      walk.remove_seed(faces[l - 10]);
+      walk.labels();
+    }
+    walk.add_seed(faces[0], 0);  // and several at once
+    walk.remove_seed(faces[8]);
+    walk.remove_seed(faces[9]);
+    std::vector<std::vector<double>> potentials;
+    for (std::size_t l = 0; l < 14; ++l) potentials.push_back(walk.potential(l));
+    EXPECT_EQ(walk.report().factorisations, 1u);
+    return std::pair(walk.labels(), potentials);
+  };
+  EXPECT_EQ(internal::with_threads<CGAL::Sequential_tag>(edited), edited());
+}
+
 TEST(SeedEditing, WorksWithEigensSolvers) {
   std::mt19937 random(6);
   networks::Network network{networks::triangulated_torus(12), {}};
@@ -602,6 +628,54 @@ TEST(Islands, GoToTheBestSupportedNeighbourAndAreCounted) {
     EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), static_cast<std::ptrdiff_t>(labels.size()));
   }
   EXPECT_GT(runs_with_islands, 0u);
+}
+
+/// Faces in components with seeds that no seed of their label reaches over faces of the label.
+static std::size_t number_cut_off(const networks::Network& network, const internal::Graph_walk& walk,
+                                  const std::vector<std::size_t>& labels) {
+  const auto reached_from_seeds = [&](const auto& may_go) {
+    std::vector<char> reached(labels.size(), 0);
+    std::vector<networks::Index> open;
+    for (const auto& seed : walk.seeds()) open.push_back(seed.face);
+    for (const auto face : open) reached[face] = 1;
+    while (!open.empty()) {
+      const auto face = open.back();
+      open.pop_back();
+      for (const auto& [next, edge] : network.graph.neighbours(face)) {
+        if (reached[next] || !(network.conductances[edge] > 0) || !may_go(face, next)) continue;
+        reached[next] = 1;
+        open.push_back(next);
+      }
+    }
+    return static_cast<std::size_t>(std::count(reached.begin(), reached.end(), 1));
+  };
+  return reached_from_seeds([](auto, auto) { return true; }) -
+         reached_from_seeds([&](auto face, auto next) { return labels[face] == labels[next]; });
+}
+
+TEST(Islands, AreAllFacesThatNoSeedOfTheirLabelReaches) {
+  // Of so many faces that they are not all joined at the same time.
+  std::size_t answers_with_islands = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    networks::Network network{networks::triangulated_torus(130), {}};
+    network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 12, random);
+    if (seed % 2)  // walls
+      for (double& c : network.conductances)
+        if (random() % 5 == 0) c = 0;
+    const auto faces = networks::random_faces(network.graph, 12, random);
+    internal::Graph_walk walk(network.graph, network.conductances);
+    for (std::size_t l = 0; l < 8; ++l) walk.add_seed(faces[l], l);
+    for (std::size_t l = 8; l < 12; ++l) {
+      const auto raw = walk.raw_labels();
+      EXPECT_EQ(number_cut_off(network, walk, raw), walk.report().island_faces) << "seed " << seed;
+      EXPECT_EQ(number_cut_off(network, walk, walk.labels()), 0u) << "seed " << seed;
+      answers_with_islands += walk.report().island_faces > 0;
+      walk.add_seed(faces[l], l % 3);
+      if (l % 2) walk.remove_seed(faces[l - 4]);
+    }
+  }
+  EXPECT_GT(answers_with_islands, 8u);
 }
 
 /// The default solver without its way to the largest potentials.
