@@ -4,12 +4,11 @@
 #define RW_SEGMENTATION_INTERNAL_WALK_LABEL_ISLANDS_H
 
 #include <RW_segmentation/Dual_graph.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/walk/Seed_set.h>
 #include <RW_segmentation/internal/walk/Walk_labels.h>
 #include <RW_segmentation/internal/walk/Walk_network.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>
@@ -28,13 +27,23 @@ class Label_islands {
   /// edit owes its speed to.
   Label_islands(const Walk_network& network, const Walk_labels& labels, const Seed_set& seeds,
                 const std::vector<char>& is_connected)
-      : network_(network), labels_(labels), root_(labels.ranks().size()) {
+      : network_(network), labels_(labels) {
+    const std::vector<Index>& rank = labels.ranks();
     std::vector<char> is_searched(labels.number_of_labels(), 0);
     for (std::size_t l = 0; l < labels.number_of_seed_labels(); ++l) is_searched[l] = !is_connected[l];
-    find_regions(is_searched);
-    for (const auto& seed : seeds.seeds())
-      if (const Index root = root_of(seed.face); root != none) root_[root] = none;
-    collect_islands();
+    const auto regions = Components::over_neighbours(network.graph, [&](Index face, Index next, Index edge) {
+      return is_searched[rank[face]] && rank[next] == rank[face] && network.conductances[edge] > 0;
+    });
+    std::vector<char> has_seed(regions.count, 0);
+    for (const auto& seed : seeds.seeds()) has_seed[regions.of[seed.face]] = 1;
+    std::unordered_map<Index, std::size_t> island_of;  // by region
+    for (std::size_t f = 0; f < rank.size(); ++f) {
+      if (!is_searched[rank[f]] || has_seed[regions.of[f]]) continue;
+      const auto [known, is_new] = island_of.try_emplace(regions.of[f], islands_.size());
+      if (is_new) islands_.emplace_back();
+      islands_[known->second].push_back(static_cast<Index>(f));
+      ++number_of_faces_;
+    }
   }
 
   std::size_t number_of_faces() const { return number_of_faces_; }
@@ -76,70 +85,6 @@ class Label_islands {
   }
 
  private:
-  static constexpr std::size_t stretch = 16384;  // faces whose regions are found together
-
-  /// Sets the roots of the faces of given labels: the lowest face of the region of each, or another face on the way to it.
-  void find_regions(const std::vector<char>& is_searched) {
-    const std::size_t n = root_.size();
-    std::vector<std::vector<std::pair<Index, Index>>> crossings((n + stretch - 1) / stretch);
-    parallel_stretches(
-        n,
-        [&](std::size_t begin, std::size_t end) {
-          for (std::size_t f = begin; f < end; ++f)
-            root_[f] = is_searched[labels_.ranks()[f]] ? join_before(f, begin, crossings[begin / stretch]) : none;
-        },
-        stretch);
-    for (const auto& joined : crossings)
-      for (const auto& [f, next] : joined) {
-        const Index a = root_of(f), b = root_of(next);
-        root_[std::max(a, b)] = std::min(a, b);
-      }
-  }
-
-  /// Joins the regions of the neighbours of a face from `begin` on that come before it and have its label.
-  /// \param crossings gets the neighbours before `begin`
-  /// \returns the root of what was joined
-  Index join_before(std::size_t face, std::size_t begin, std::vector<std::pair<Index, Index>>& crossings) {
-    const std::vector<Index>& rank = labels_.ranks();
-    const auto own = static_cast<Index>(face);
-    Index root = own;
-    for (const auto& [next, edge] : network_.graph.neighbours(own)) {
-      if (next > own || rank[next] != rank[own] || !(network_.conductances[edge] > 0)) continue;
-      if (next < begin) {
-        crossings.emplace_back(own, next);
-        continue;
-      }
-      const Index other = root_of(next);
-      if (other == root) continue;
-      if (root != own) root_[std::max(root, other)] = std::min(root, other);
-      root = std::min(root, other);
-    }
-    return root;
-  }
-
-  /// Follows a face to the lowest of its region, and halves the way.
-  Index root_of(Index face) {
-    while (root_[face] != face && root_[face] != none) {
-      if (const Index next = root_[root_[face]]; next != none) root_[face] = next;
-      face = root_[face];
-    }
-    return root_[face] == none ? none : face;
-  }
-
-  /// The regions whose roots no seed has taken away, each with its faces ascending, the one with the lowest face first.
-  void collect_islands() {
-    std::unordered_map<Index, std::size_t> island_of;
-    for (std::size_t f = 0; f < root_.size(); ++f) {
-      if (root_[f] == none) continue;
-      const Index root = root_[f] = root_[root_[f]];  // that of a lower face, which has been brought to its end
-      if (root == none) continue;
-      const auto [known, is_new] = island_of.try_emplace(root, islands_.size());
-      if (is_new) islands_.emplace_back();
-      islands_[known->second].push_back(static_cast<Index>(f));
-      ++number_of_faces_;
-    }
-  }
-
   Index best_supported_neighbour(const std::vector<Index>& island, const std::vector<Index>& settled) const {
     double support = -1;
     Index rank = none;
@@ -157,7 +102,6 @@ class Label_islands {
 
   const Walk_network& network_;
   const Walk_labels& labels_;
-  std::vector<Index> root_;  // by face: a lower one of its region, itself for the lowest, `none` where no island is
   std::vector<std::vector<Index>> islands_;
   std::size_t number_of_faces_ = 0;
 };
