@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// What is measured on a mesh.
+// What is measured on a mesh, and threads.
 
 #include "for_each_concurrency.h"
 
@@ -11,6 +11,7 @@
 #include <RW_segmentation/internal/definitions/integral_invariant_curvatures.h>
 #include <RW_segmentation/internal/definitions/local_thickness.h>
 #include <RW_segmentation/internal/definitions/smoothed_face_normals.h>
+#include <RW_segmentation/internal/definitions/threads.h>
 
 namespace RW_segmentation::internal {
 

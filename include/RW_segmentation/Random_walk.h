@@ -7,8 +7,8 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Star_mesh_elimination.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/Graph_walk.h>
 #include <RW_segmentation/internal/walk/make_solver.h>
 #include <RW_segmentation/internal/walk/read_conductances.h>

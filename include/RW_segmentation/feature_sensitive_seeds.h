@@ -8,8 +8,8 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/seeds/read_seeds.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>

@@ -9,9 +9,9 @@
 #include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/seeds/read_seeds.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/make_solver.h>
 #include <RW_segmentation/internal/walk/read_conductances.h>
 #include <RW_segmentation/internal/walk/walk_fragments.h>

@@ -10,9 +10,9 @@
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/rank_labels.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>

@@ -8,9 +8,9 @@
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Segmentation_report.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>

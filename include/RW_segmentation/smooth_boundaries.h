@@ -12,7 +12,7 @@
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/boundary/Walled_surface.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
 #include <CGAL/Named_function_parameters.h>

@@ -9,8 +9,8 @@
 #include <RW_segmentation/internal/boundary/Surface_refinement.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>

@@ -10,7 +10,7 @@
 #include <RW_segmentation/Tile.h>
 #include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 

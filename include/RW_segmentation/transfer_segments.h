@@ -6,8 +6,8 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/named_parameters.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/read_conductances.h>
 
 #include <CGAL/Named_function_parameters.h>

@@ -4,35 +4,21 @@
 #define RW_SEGMENTATION_INTERNAL_PARALLEL_FOR_H
 
 #include <RW_segmentation/Progress.h>
-
-#include <CGAL/tags.h>
+#include <RW_segmentation/internal/threads.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 #endif
 
 #include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
-namespace RW_segmentation::internal {
+// For definitions alone: programs that link the compiled library must not compile TBB's headers.
 
-/// Whether a concurrency tag of CGAL's means threads, which it does where TBB is linked.
-/// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
-template <class ConcurrencyTag>
-constexpr bool has_threads() {
-  constexpr bool parallel = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
-#ifdef CGAL_LINKED_WITH_TBB
-  return parallel;
-#else
-  static_assert(!parallel, "CGAL::Parallel_tag needs TBB: link with it and define CGAL_LINKED_WITH_TBB.");
-  return false;
-#endif
-}
+namespace RW_segmentation::internal {
 
 /// A workspace for each thread, made when first asked for.
 template <class Workspace, class ConcurrencyTag>
@@ -69,58 +55,6 @@ void parallel_tasks(std::size_t number, const Task& task) {
   } else {
     for (std::size_t i = 0; i < number; ++i) task(i);
   }
-}
-
-/// Calls `work(begin, end)` for stretches of 0 .. `number` - 1, of the same length each but the last; for several at the
-/// same time where TBB is linked. The stretches do not depend on the number of threads.
-template <class Work>
-void parallel_stretches(std::size_t number, const Work& work, std::size_t length = 16384) {
-  const auto task = [&](std::size_t stretch) { work(stretch * length, std::min((stretch + 1) * length, number)); };
-  const std::size_t stretches = (number + length - 1) / length;
-  if (stretches <= 1) {
-    if (stretches == 1) task(0);
-    return;
-  }
-#ifdef CGAL_LINKED_WITH_TBB
-  // The thread that waits for its own stretches must not begin with something long instead.
-  tbb::this_task_arena::isolate([&] { parallel_tasks<CGAL::Parallel_tag>(stretches, task); });
-#else
-  parallel_tasks<CGAL::Sequential_tag>(stretches, task);
-#endif
-}
-
-/// Calls `here()`, from the calling thread, and `in_background()`, at the same time if there are threads.
-template <class ConcurrencyTag, class Background, class Here>
-void at_the_same_time(const Background& in_background, const Here& here) {
-  if constexpr (has_threads<ConcurrencyTag>()) {
-#ifdef CGAL_LINKED_WITH_TBB
-    tbb::task_group group;
-    group.run(in_background);
-    try {
-      here();
-    } catch (...) {
-      group.cancel();
-      group.wait();
-      throw;
-    }
-    group.wait();
-#endif
-  } else {
-    here();
-    in_background();
-  }
-}
-
-/// Calls `work()`, whose parts use threads only where a concurrency tag says so.
-template <class ConcurrencyTag, class Work>
-auto with_threads(const Work& work) {
-#ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (!has_threads<ConcurrencyTag>()) {
-    tbb::task_arena calling_thread_alone(1);
-    return calling_thread_alone.execute(work);
-  }
-#endif
-  return work();
 }
 
 /// Calls `worker(i)` for i = 0 .. `number` - 1, with a worker of its own for each thread, made by `make_worker()`.

@@ -6,7 +6,7 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <Eigen/Geometry>
 

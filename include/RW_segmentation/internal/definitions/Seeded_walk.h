@@ -7,7 +7,7 @@
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/Label_islands.h>
 #include <RW_segmentation/internal/walk/Seeded_walk.h>
 

@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/curvature/Ball_moments.h>
 #include <RW_segmentation/internal/curvature/Ball_neighbourhood.h>
 #include <RW_segmentation/internal/curvature/Triangulated_faces.h>
+#include <RW_segmentation/internal/parallel_for.h>
 
 namespace RW_segmentation::internal {
 

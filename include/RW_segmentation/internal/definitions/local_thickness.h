@@ -6,6 +6,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/mesh/Triangle_tree.h>
+#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/local_thickness.h>
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/mesh/closest_face.h>
-#include <RW_segmentation/internal/parallel_for.h>
 #include <RW_segmentation/internal/rank_labels.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/settle_band.h>
 #include <RW_segmentation/internal/walk/spurious_regions.h>
 #include <RW_segmentation/transfer_segments.h>

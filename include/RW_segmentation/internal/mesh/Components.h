@@ -4,7 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_MESH_COMPONENTS_H
 
 #include <RW_segmentation/Dual_graph.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <algorithm>
 #include <cstddef>

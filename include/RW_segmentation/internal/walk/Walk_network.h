@@ -5,7 +5,7 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/mesh/Components.h>
-#include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/Seed_set.h>
 
 #include <cstddef>
