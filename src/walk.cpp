@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/definitions/Consensus_cost.h>
 #include <RW_segmentation/internal/definitions/Graph_walk.h>
 #include <RW_segmentation/internal/definitions/Learned_cost.h>
+#include <RW_segmentation/internal/definitions/Merge_queue.h>
 #include <RW_segmentation/internal/definitions/Particle_sampling.h>
 #include <RW_segmentation/internal/definitions/Seeded_walk.h>
 #include <RW_segmentation/internal/definitions/Star_mesh_elimination.h>

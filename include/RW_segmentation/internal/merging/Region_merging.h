@@ -7,8 +7,7 @@
 #include <RW_segmentation/Merge_tree.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Region_boundary.h>
-
-#include <boost/heap/d_ary_heap.hpp>
+#include <RW_segmentation/internal/merging/Merge_queue.h>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,6 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -168,8 +166,9 @@ class Region_merging {
         outline_[r] += boundary_[b].common;
         boundaries_of_[r].push_back(b);
       }
-    place_.reserve(boundary_.size());
-    for (Index b = 0; b < boundary_.size(); ++b) place_.push_back(queue_.push({cost_of(b), b}));
+    std::vector<double> costs(boundary_.size());
+    for (Index b = 0; b < boundary_.size(); ++b) costs[b] = cost_of(b);
+    queue_ = Merge_queue(costs);
   }
 
   /// Merges to the end, once.
@@ -194,15 +193,6 @@ class Region_merging {
  private:
   static constexpr Index none = std::numeric_limits<Index>::max();
 
-  struct Candidate {
-    double cost;
-    Index boundary;
-    bool operator<(const Candidate& other) const {  // the heap's top is the largest
-      return std::tie(other.cost, other.boundary) < std::tie(cost, boundary);
-    }
-  };
-  using Queue = boost::heap::d_ary_heap<Candidate, boost::heap::arity<4>, boost::heap::mutable_<true>>;
-
   double cost_of(Index boundary) const {
     const auto& [regions, common] = boundary_[boundary];
     // Regions that touch only along edges without length come last, and no threshold joins them.
@@ -221,7 +211,7 @@ class Region_merging {
 
   /// The lists of the two regions forget the boundary when they are next read.
   void remove(Index boundary) {
-    queue_.erase(place_[boundary]);
+    queue_.erase(boundary);
     boundary_[boundary].regions = {none, none};
   }
   bool is_removed(Index boundary) const { return boundary_[boundary].regions[0] == none; }
@@ -254,7 +244,7 @@ class Region_merging {
     for (const Index b : joined) outline_[kept] += boundary_[b].common;
     for (const Index b : joined) {
       boundary_to_[neighbour_of(kept, b)] = none;
-      queue_.update(place_[b], {cost_of(b), b});
+      queue_.update(b, cost_of(b));
     }
     boundaries_of_[kept] = std::move(joined);
     boundaries_of_[absorbed].clear();
@@ -266,8 +256,7 @@ class Region_merging {
   std::vector<std::vector<Index>> boundaries_of_;  // each region
   std::vector<Index> boundary_to_;                 // each neighbour of the region at hand
   Boundaries boundary_;
-  Queue queue_;
-  std::vector<typename Queue::handle_type> place_;  // of each boundary in the queue
+  Merge_queue queue_;
 };
 
 /// The regions of fragments, made by joining those of their faces.
