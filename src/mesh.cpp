@@ -7,7 +7,9 @@
 #include <RW_segmentation/internal/definitions/Conductance.h>
 #include <RW_segmentation/internal/definitions/Curvature_difference.h>
 #include <RW_segmentation/internal/definitions/Dihedral_difference.h>
+#include <RW_segmentation/internal/definitions/Dual_graph.h>
 #include <RW_segmentation/internal/definitions/Dual_mesh.h>
+#include <RW_segmentation/internal/definitions/check_number.h>
 #include <RW_segmentation/internal/definitions/integral_invariant_curvatures.h>
 #include <RW_segmentation/internal/definitions/local_thickness.h>
 #include <RW_segmentation/internal/definitions/smoothed_face_normals.h>

@@ -4,14 +4,19 @@
 
 #include "for_each_concurrency.h"
 
+#include <RW_segmentation/internal/definitions/Any_walk_solver.h>
 #include <RW_segmentation/internal/definitions/Common_refinement.h>
 #include <RW_segmentation/internal/definitions/Consensus_cost.h>
 #include <RW_segmentation/internal/definitions/Graph_walk.h>
 #include <RW_segmentation/internal/definitions/Learned_cost.h>
 #include <RW_segmentation/internal/definitions/Merge_queue.h>
+#include <RW_segmentation/internal/definitions/Merge_tree.h>
 #include <RW_segmentation/internal/definitions/Particle_sampling.h>
 #include <RW_segmentation/internal/definitions/Seeded_walk.h>
+#include <RW_segmentation/internal/definitions/Segmentation_policies.h>
+#include <RW_segmentation/internal/definitions/Size_aware_cost.h>
 #include <RW_segmentation/internal/definitions/Star_mesh_elimination.h>
+#include <RW_segmentation/internal/definitions/Walk_reduction.h>
 #include <RW_segmentation/internal/definitions/coarse_seeds.h>
 #include <RW_segmentation/internal/definitions/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/definitions/further_seedings.h>

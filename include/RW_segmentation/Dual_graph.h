@@ -3,19 +3,16 @@
 #ifndef RW_SEGMENTATION_DUAL_GRAPH_H
 #define RW_SEGMENTATION_DUAL_GRAPH_H
 
-#include <RW_segmentation/internal/check_number.h>
-
 #include <boost/graph/graph_traits.hpp>
 #include <boost/graph/properties.hpp>
 #include <boost/iterator/counting_iterator.hpp>
-#include <boost/iterator/iterator_facade.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -72,25 +69,7 @@ class Dual_graph {
   /// \throws std::length_error if there are 2^32 - 1 faces or more, or as many directed edges
   /// \throws std::invalid_argument if an edge names a face that is not there, or the same face twice
   /// Complexity: linear.
-  Dual_graph(std::size_t number_of_faces, std::vector<std::array<Index, 2>> edges) : ends_(std::move(edges)) {
-    internal::check_number(number_of_faces, "faces");
-    internal::check_number(2 * ends_.size(), "directed edges");
-    row_.assign(number_of_faces + 1, 0);
-    for (const auto& [f, g] : ends_) {
-      if (f >= number_of_faces || g >= number_of_faces || f == g)
-        throw std::invalid_argument("Dual_graph: an edge must join two different faces of the graph");
-      ++row_[f + 1];
-      ++row_[g + 1];
-    }
-    for (std::size_t f = 0; f < number_of_faces; ++f) row_[f + 1] += row_[f];
-    neighbours_.resize(2 * ends_.size());
-    std::vector<Index> next(row_.begin(), row_.end() - 1);
-    for (std::size_t e = 0; e < ends_.size(); ++e) {
-      const auto [f, g] = ends_[e];
-      neighbours_[next[f]++] = {g, static_cast<Index>(e)};
-      neighbours_[next[g]++] = {f, static_cast<Index>(e)};
-    }
-  }
+  Dual_graph(std::size_t number_of_faces, std::vector<std::array<Index, 2>> edges);
 
   /// Faces are numbered from 0 to this - 1.
   std::size_t number_of_faces() const { return row_.size() - 1; }
@@ -114,19 +93,32 @@ class Dual_graph {
 namespace internal {
 
 /// Iterates over the arcs that leave a face.
-class Arc_iterator
-    : public boost::iterator_facade<Arc_iterator, Dual_graph::Arc, boost::forward_traversal_tag, Dual_graph::Arc> {
+class Arc_iterator {
  public:
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = Dual_graph::Arc;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const Dual_graph::Arc*;
+  using reference = Dual_graph::Arc;
+
   Arc_iterator() = default;
   Arc_iterator(Dual_graph::Index source, const Dual_graph::Neighbour* neighbour)
       : source_(source), neighbour_(neighbour) {}
 
- private:
-  friend class boost::iterator_core_access;
-  Dual_graph::Arc dereference() const { return {source_, neighbour_->face, neighbour_->edge}; }
-  void increment() { ++neighbour_; }
-  bool equal(const Arc_iterator& other) const { return neighbour_ == other.neighbour_; }
+  Dual_graph::Arc operator*() const { return {source_, neighbour_->face, neighbour_->edge}; }
+  Arc_iterator& operator++() {
+    ++neighbour_;
+    return *this;
+  }
+  Arc_iterator operator++(int) {
+    Arc_iterator old = *this;
+    ++neighbour_;
+    return old;
+  }
+  friend bool operator==(const Arc_iterator& a, const Arc_iterator& b) { return a.neighbour_ == b.neighbour_; }
+  friend bool operator!=(const Arc_iterator& a, const Arc_iterator& b) { return !(a == b); }
 
+ private:
   Dual_graph::Index source_ = 0;
   const Dual_graph::Neighbour* neighbour_ = nullptr;
 };
@@ -182,5 +174,9 @@ struct property_map<RW_segmentation::Dual_graph, vertex_index_t> {
 };
 
 }  // namespace boost
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Dual_graph.h>
+#endif
 
 #endif

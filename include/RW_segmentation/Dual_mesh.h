@@ -10,7 +10,6 @@
 #include <RW_segmentation/internal/mesh/Mesh_reading.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
-#include <RW_segmentation/internal/unit_vector.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -155,6 +154,16 @@ std::size_t place_in(const Range& range, const Descriptor& descriptor) {
   return static_cast<std::size_t>(std::distance(range.begin(), std::find(range.begin(), range.end(), descriptor)));
 }
 
+/// The first vector that has a coordinate that is not finite; their number if there is none.
+std::size_t first_not_finite(const std::vector<Eigen::Vector3d>& vectors);
+
+/// What is thrown for coordinates that are not finite, of the vertex or the normal of the face at a place.
+std::invalid_argument point_error(std::size_t place);
+std::invalid_argument normal_error(std::size_t place, const Eigen::Vector3d& normal);
+
+/// Divides vectors by their lengths; zero vectors stay zero.
+void normalize(std::vector<Eigen::Vector3d>& vectors);
+
 /// The points of vertices.
 /// \throws std::invalid_argument if a coordinate is not finite, naming the vertex by its place in the order of
 /// `vertices(mesh)`
@@ -169,10 +178,9 @@ std::vector<Eigen::Vector3d> read_points(const FaceListGraph& mesh, const Vertex
   for (const auto v : descriptors) {
     const auto& p = get(map, v);
     points.emplace_back(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
-    if (points.back().allFinite()) continue;
-    throw std::invalid_argument("vertex " + std::to_string(place_in(vertices(mesh), v)) +
-                                " has a coordinate that is not finite");
   }
+  const std::size_t bad = first_not_finite(points);
+  if (bad < points.size()) throw point_error(place_in(vertices(mesh), descriptors[bad]));
   return points;
 }
 
@@ -275,12 +283,9 @@ class Dual_mesh_of : public Dual_mesh {
     std::vector<Eigen::Vector3d> vectors = read_faces(normals, [](const auto& n) {
       return Eigen::Vector3d(CGAL::to_double(n[0]), CGAL::to_double(n[1]), CGAL::to_double(n[2]));
     });
-    for (std::size_t f = 0; f < vectors.size(); ++f) {
-      if (!vectors[f].allFinite())
-        throw internal::argument_error(("the normal of face " + std::to_string(place(static_cast<Index>(f)))).c_str(),
-                                       vectors[f].transpose(), "finite");
-      vectors[f] = internal::unit_vector(vectors[f]);
-    }
+    const std::size_t bad = internal::first_not_finite(vectors);
+    if (bad < vectors.size()) throw internal::normal_error(place(static_cast<Index>(bad)), vectors[bad]);
+    internal::normalize(vectors);
     return vectors;
   }
 

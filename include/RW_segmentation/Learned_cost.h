@@ -68,20 +68,12 @@ class Learned_cost {
   /// \param trees others than the library's; they must outlive this
   /// Complexity: linear.
   explicit Learned_cost(const Dual_mesh& shape, std::vector<double> thickness = {},
-                        const internal::Boosted_trees& trees = internal::learned_trees())
-      : is_solid_(internal::is_solid(thickness)),
-        size_aware_(std::move(thickness)),
-        concavity_(std::make_shared<const internal::Edge_concavity>(shape)),
-        trees_(&trees) {}
+                        const internal::Boosted_trees& trees = internal::learned_trees());
 
   /// For a part of a mesh: its regions and boundaries are told by what is ordinary on the whole.
   /// \param part of the mesh, with the normals of `smoothed_shape()`
   /// \param thickness by face of the part, as above
-  Learned_cost(const Dual_mesh& part, std::vector<double> thickness, const internal::Mean_concavity& whole)
-      : is_solid_(internal::is_solid(thickness)),
-        size_aware_(std::move(thickness)),
-        concavity_(std::make_shared<const internal::Edge_concavity>(part, whole)),
-        trees_(&internal::learned_trees()) {}
+  Learned_cost(const Dual_mesh& part, std::vector<double> thickness, const internal::Mean_concavity& whole);
 
   /// For regions and boundaries that are there already; it can make none.
   /// \param is_solid whether enough of the whole mesh has a thickness

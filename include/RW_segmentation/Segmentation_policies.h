@@ -98,10 +98,7 @@ struct Size_aware_cost_policy {
   Thickness_sampling thickness;  ///< 0 samples: thickness does not count
 
   /// \throws std::invalid_argument if a number of `thickness` is out of range
-  Size_aware_cost operator()(const Dual_mesh& mesh) const {
-    return thickness.samples == 0 ? Size_aware_cost()
-                                  : Size_aware_cost(internal::thickness_of_faces(mesh, thickness, {}));
-  }
+  Size_aware_cost operator()(const Dual_mesh& mesh) const;
 };
 
 /// `Learned_cost` with the thickness of the solid, measured on the shape: a function object from a dual mesh to a merge cost.
@@ -109,10 +106,7 @@ struct Learned_cost_policy {
   Thickness_sampling thickness;  ///< 0 samples: neither thickness nor what was learned counts
 
   /// \throws std::invalid_argument if a number of `thickness` is out of range
-  Learned_cost operator()(const Dual_mesh& mesh) const {
-    return Learned_cost(
-        mesh, thickness.samples == 0 ? std::vector<double>() : internal::thickness_of_faces(mesh, thickness, {}));
-  }
+  Learned_cost operator()(const Dual_mesh& mesh) const;
 };
 
 namespace internal {
@@ -131,15 +125,10 @@ inline std::size_t seeds_for(std::size_t segments, std::size_t least) { return s
 /// `Automatic_segmentation().with_merge_cost(Size_aware_cost_policy())` leaves out what was learned, and the second seeding.
 struct Automatic_segmentation : internal::Automatic_policies {
   /// As many segments as the shape suggests: merging stops at cost 1.
-  Automatic_segmentation()
-      : internal::Automatic_policies{{}, smoothed_concavity(), 1, 20, {40, {}}, {}, {}, {}, Cost_threshold_stop(1), 2} {
-  }
+  Automatic_segmentation();
 
   /// As many segments as that, at least one for each connected component.
-  explicit Automatic_segmentation(std::size_t segments) : Automatic_segmentation() {
-    seeding.count = internal::seeds_for(segments, seeding.count);
-    stop = Segment_count_stop(segments);
-  }
+  explicit Automatic_segmentation(std::size_t segments);
 };
 
 namespace internal {
@@ -154,5 +143,9 @@ constexpr bool is_segmentation_policies = decltype(derives_from_policies(std::de
 
 }  // namespace internal
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Segmentation_policies.h>
+#endif
 
 #endif

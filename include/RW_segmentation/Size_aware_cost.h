@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace RW_segmentation {
@@ -41,9 +40,7 @@ class Size_aware_cost {
   /// With thickness.
   /// \param thickness by face of the dual mesh, how thick the solid is below it, in any unit; not positive where it is not
   /// known; empty: of no face
-  explicit Size_aware_cost(std::vector<double> thickness) {
-    if (!thickness.empty()) thickness_ = std::make_shared<const std::vector<double>>(std::move(thickness));
-  }
+  explicit Size_aware_cost(std::vector<double> thickness);
 
   /// With a stored thickness, as `local_thickness()` writes it.
   ///
@@ -100,5 +97,9 @@ class Size_aware_cost {
 };
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Size_aware_cost.h>
+#endif
 
 #endif

@@ -3,9 +3,6 @@
 #ifndef RW_SEGMENTATION_WALK_REDUCTION_H
 #define RW_SEGMENTATION_WALK_REDUCTION_H
 
-#include <RW_segmentation/internal/Argument_error.h>
-
-#include <cmath>
 #include <cstddef>
 
 namespace RW_segmentation {
@@ -33,14 +30,14 @@ struct Walk_reduction {
 
 namespace internal {
 
-inline void require_reduction_numbers(const Walk_reduction& reduction) {
-  if (reduction.cluster_steps == 0) throw argument_error("cluster_steps", reduction.cluster_steps, "at least 1");
-  if (!(reduction.largest_difference > 0))
-    throw argument_error("largest_difference", reduction.largest_difference, "positive");
-}
+void require_reduction_numbers(const Walk_reduction& reduction);
 
 }  // namespace internal
 
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Walk_reduction.h>
+#endif
 
 #endif

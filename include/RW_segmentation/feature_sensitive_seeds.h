@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -40,10 +39,7 @@ class Farthest_point_sampling {
   /// \param normal_weight w of the metric |dx|^2 + w^2 |dn|^2, as a fraction of the square root of the total area; 0.05
   /// if not given
   /// \throws std::invalid_argument unless `normal_weight` is finite and not negative
-  explicit Farthest_point_sampling(double normal_weight) : normal_weight_(normal_weight) {
-    if (!(normal_weight >= 0 && std::isfinite(normal_weight)))
-      throw internal::argument_error("normal_weight", normal_weight, "finite and not negative");
-  }
+  explicit Farthest_point_sampling(double normal_weight);
 
   /// w as a fraction of the square root of the total area.
   double normal_weight() const { return normal_weight_; }

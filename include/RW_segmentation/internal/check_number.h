@@ -4,20 +4,17 @@
 #define RW_SEGMENTATION_INTERNAL_CHECK_NUMBER_H
 
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace RW_segmentation::internal {
 
 /// Refuses more faces, vertices or halfedges than 32 bits can number; the last number means none.
 /// \throws std::length_error
-inline void check_number(std::size_t number, const char* items) {
-  if (number >= std::numeric_limits<std::uint32_t>::max())
-    throw std::length_error(std::to_string(number) + " " + items + " are more than 32 bits can number");
-}
+void check_number(std::size_t number, const char* items);
 
 }  // namespace RW_segmentation::internal
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/check_number.h>
+#endif
 
 #endif

@@ -4,8 +4,10 @@
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_DUAL_MESH_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/threads.h>
+#include <RW_segmentation/internal/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -16,6 +18,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +37,24 @@ RW_SEGMENTATION_INLINE Unit_box::Unit_box(const std::vector<Eigen::Vector3d>& po
   if (diagonal >= std::numeric_limits<double>::min()) unit = diagonal;
   const double largest_coordinate = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   rounding = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * (1 / unit));
+}
+
+RW_SEGMENTATION_INLINE std::size_t first_not_finite(const std::vector<Eigen::Vector3d>& vectors) {
+  const auto bad =
+      std::find_if(vectors.begin(), vectors.end(), [](const Eigen::Vector3d& vector) { return !vector.allFinite(); });
+  return static_cast<std::size_t>(bad - vectors.begin());
+}
+
+RW_SEGMENTATION_INLINE std::invalid_argument point_error(std::size_t place) {
+  return std::invalid_argument("vertex " + std::to_string(place) + " has a coordinate that is not finite");
+}
+
+RW_SEGMENTATION_INLINE std::invalid_argument normal_error(std::size_t place, const Eigen::Vector3d& normal) {
+  return argument_error(("the normal of face " + std::to_string(place)).c_str(), normal.transpose(), "finite");
+}
+
+RW_SEGMENTATION_INLINE void normalize(std::vector<Eigen::Vector3d>& vectors) {
+  for (Eigen::Vector3d& vector : vectors) vector = unit_vector(vector);
 }
 
 /// Sets the normal and the area of a face.

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation {
@@ -36,6 +38,12 @@ RW_SEGMENTATION_INLINE double Edge_concavity::excess_of(Dual_mesh::Index edge) c
   const double turn = inward_turn_[edge];
   return turn > 1 ? std::sqrt(turn * turn - 1) : 0;
 }
+
+RW_SEGMENTATION_INLINE Region_shape::Region_shape()
+    : centroid(Eigen::Vector3d::Zero()), normal(Eigen::Vector3d::Zero()) {}
+
+RW_SEGMENTATION_INLINE Boundary_shape::Boundary_shape()
+    : middle(Eigen::Vector3d::Zero()), moment(Eigen::Matrix3d::Zero()) {}
 
 RW_SEGMENTATION_INLINE Region_shape& Region_shape::operator+=(const Region_shape& other) {
   area += other.area;
@@ -245,6 +253,20 @@ RW_SEGMENTATION_INLINE const Boosted_trees& learned_trees() {
 }  // namespace internal
 
 // ---- The cost ----
+
+RW_SEGMENTATION_INLINE Learned_cost::Learned_cost(const Dual_mesh& shape, std::vector<double> thickness,
+                                                  const internal::Boosted_trees& trees)
+    : is_solid_(internal::is_solid(thickness)),
+      size_aware_(std::move(thickness)),
+      concavity_(std::make_shared<const internal::Edge_concavity>(shape)),
+      trees_(&trees) {}
+
+RW_SEGMENTATION_INLINE Learned_cost::Learned_cost(const Dual_mesh& part, std::vector<double> thickness,
+                                                  const internal::Mean_concavity& whole)
+    : is_solid_(internal::is_solid(thickness)),
+      size_aware_(std::move(thickness)),
+      concavity_(std::make_shared<const internal::Edge_concavity>(part, whole)),
+      trees_(&internal::learned_trees()) {}
 
 RW_SEGMENTATION_INLINE Learned_cost::Region Learned_cost::region(const Dual_mesh& mesh, Dual_mesh::Index face) const {
   const Size_aware_cost::Region size = size_aware_.region(mesh, face);

@@ -10,6 +10,7 @@
 #include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/internal/walk/Label_islands.h>
 #include <RW_segmentation/internal/walk/Seeded_walk.h>
+#include <RW_segmentation/internal/walk/seeded_components.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,16 @@
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_FEATURE_SENSITIVE_SEEDS_H
 
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/seeds/Distances_to_sources.h>
 #include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 #include <RW_segmentation/internal/seeds/farthest_points.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace RW_segmentation {
 
@@ -26,6 +32,12 @@ inline Dual_mesh::Index face_farthest_from_centroid(const Dual_mesh& mesh) {
 }
 
 }  // namespace internal
+
+RW_SEGMENTATION_INLINE Farthest_point_sampling::Farthest_point_sampling(double normal_weight)
+    : normal_weight_(normal_weight) {
+  if (!(normal_weight >= 0 && std::isfinite(normal_weight)))
+    throw internal::argument_error("normal_weight", normal_weight, "finite and not negative");
+}
 
 RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> Farthest_point_sampling::operator()(
     const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& given, std::size_t count,

@@ -42,33 +42,35 @@ class Edge_concavity {
 
 /// Sums over a region that tell its shape. Lengths are in units of R, areas in units of R^2.
 struct Region_shape {
-  double area = 0;                                     ///< of the faces
-  double samples = 0;                                  ///< faces whose thickness is known
-  double log_thickness = 0;                            ///< over the samples
-  double squared_log_thickness = 0;                    ///< over the samples
-  double edge_length = 0;                              ///< half of each side of a face that is no wall
-  double excess = 0;                                   ///< of the concavity, times that
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< times area
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< times area
+  double area = 0;                   ///< of the faces
+  double samples = 0;                ///< faces whose thickness is known
+  double log_thickness = 0;          ///< over the samples
+  double squared_log_thickness = 0;  ///< over the samples
+  double edge_length = 0;            ///< half of each side of a face that is no wall
+  double excess = 0;                 ///< of the concavity, times that
+  Eigen::Vector3d centroid;          ///< times area
+  Eigen::Vector3d normal;            ///< times area
 
+  Region_shape();  ///< of nothing
   Region_shape& operator+=(const Region_shape& other);
 };
 
 /// Sums over the edges of a boundary: of their lengths |e|, and of |e| times what they are.
 struct Boundary_shape {
-  double length = 0;                                 ///< in units of R
-  double excess = 0;                                 ///< of the concavity
-  double root = 0;                                   ///< of the inward turn
-  double fourth_root = 0;                            ///< of the inward turn
-  double permeability = 0;                           ///< exp(-excess), what walks see
-  double concave = 0;                                ///< 1 where the excess is above a half
-  double distinct = 0;                               ///< 1 where the inward turn is 1.5 to 3 times the average
-  double strong = 0;                                 ///< 1 where it is more
-  double inward_curvature = 0;                       ///< of the smoothed shape across the edge, times R
-  double outward_curvature = 0;                      ///< likewise
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< in units of R
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  ///< of the middles
+  double length = 0;             ///< in units of R
+  double excess = 0;             ///< of the concavity
+  double root = 0;               ///< of the inward turn
+  double fourth_root = 0;        ///< of the inward turn
+  double permeability = 0;       ///< exp(-excess), what walks see
+  double concave = 0;            ///< 1 where the excess is above a half
+  double distinct = 0;           ///< 1 where the inward turn is 1.5 to 3 times the average
+  double strong = 0;             ///< 1 where it is more
+  double inward_curvature = 0;   ///< of the smoothed shape across the edge, times R
+  double outward_curvature = 0;  ///< likewise
+  Eigen::Vector3d middle;        ///< in units of R
+  Eigen::Matrix3d moment;        ///< of the middles
 
+  Boundary_shape();  ///< of nothing
   Boundary_shape& operator+=(const Boundary_shape& other);
 };
 

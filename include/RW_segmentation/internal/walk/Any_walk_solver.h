@@ -6,7 +6,6 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/Star_mesh_elimination.h>
 
 #include <cstddef>
 #include <memory>
@@ -49,7 +48,7 @@ class Any_walk_solver {
  public:
   using Index = Dual_graph::Index;
 
-  Any_walk_solver() : Any_walk_solver(Star_mesh_elimination()) {}
+  Any_walk_solver();
 
   template <class Solver, class = std::enable_if_t<is_walk_solver<Solver>>>
   Any_walk_solver(Solver solver)  // NOLINT(google-explicit-constructor): as a std::function takes a function
@@ -117,5 +116,9 @@ class Any_walk_solver {
 };
 
 }  // namespace RW_segmentation::internal
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Any_walk_solver.h>
+#endif
 
 #endif

@@ -6,7 +6,6 @@
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/threads.h>
-#include <RW_segmentation/internal/walk/Seed_set.h>
 
 #include <cstddef>
 #include <vector>
@@ -27,13 +26,6 @@ constexpr std::size_t faces_at_a_time = 4096;
 template <class Work>
 void for_stretches(const Walk_network& network, const Work& work) {
   parallel_stretches(network.graph.number_of_faces(), work, faces_at_a_time);
-}
-
-/// By component: whether it holds a seed.
-inline std::vector<char> seeded_components(const Walk_network& network, const Seed_set& seeds) {
-  std::vector<char> seeded(network.component.count, 0);
-  for (const auto& seed : seeds.seeds()) seeded[network.component.of[seed.face]] = 1;
-  return seeded;
 }
 
 }  // namespace RW_segmentation::internal
