@@ -3,6 +3,8 @@
 #ifndef RW_SEGMENTATION_PROGRESS_H
 #define RW_SEGMENTATION_PROGRESS_H
 
+#include <RW_segmentation/internal/named_parameters.h>
+
 #include <CGAL/Named_function_parameters.h>
 
 #include <functional>
@@ -54,9 +56,11 @@ namespace internal {
 
 /// The CGAL named parameter `callback`, or silence.
 template <class NamedParameters>
-Progress progress_of(const NamedParameters& np) {
-  return Progress(CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, CGAL::internal_np::callback),
-                                                     std::function<bool(double)>()));
+Progress progress_of([[maybe_unused]] const NamedParameters& np) {
+  if constexpr (has_parameter<NamedParameters, Callback>)
+    return Progress(CGAL::parameters::get_parameter(np, CGAL::internal_np::callback));
+  else
+    return Progress();
 }
 
 }  // namespace internal

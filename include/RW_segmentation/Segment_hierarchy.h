@@ -15,6 +15,19 @@
 
 namespace RW_segmentation {
 
+namespace internal {
+
+/// The number of segments that a stop predicate chooses.
+template <class StopPredicate>
+std::size_t segments_at_stop(const Merge_tree& tree, const StopPredicate& stop) {
+  static_assert(std::is_invocable_r_v<std::size_t, const StopPredicate&, const Merge_tree&>,
+                "stop must be a function from Merge_tree to the number of segments, such as Segment_count_stop(6) or "
+                "Cost_threshold_stop(1).");
+  return stop(tree);
+}
+
+}  // namespace internal
+
 /// All levels of a segmentation, from the fragments it was made of to one segment for each connected component.
 ///
 /// Made by `merge_segments()`. Holds the merges and the fragment of each face, so that any number of segments is read
@@ -46,10 +59,7 @@ class Segment_hierarchy : public Merge_tree {
   std::size_t segments(const StopPredicate& stop, SegmentIdMap segment_ids) const {
     static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                   "segment_ids must be a writable property map from the mesh's face_descriptor to std::size_t.");
-    static_assert(std::is_invocable_r_v<std::size_t, const StopPredicate&, const Merge_tree&>,
-                  "stop must be a function from Merge_tree to the number of segments, such as Segment_count_stop(6) or "
-                  "Cost_threshold_stop(1).");
-    const std::size_t number_of_segments = stop(static_cast<const Merge_tree&>(*this));
+    const std::size_t number_of_segments = internal::segments_at_stop(*this, stop);
     const std::vector<std::size_t> segment = segment_of_fragments(number_of_segments);
     for (std::size_t i = 0; i < faces_.size(); ++i) put(segment_ids, faces_[i], segment[fragment_of_face_[i]]);
     return number_of_segments;

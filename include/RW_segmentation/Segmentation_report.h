@@ -55,21 +55,27 @@ namespace internal {
 /// Notes how long the stages of a computation take.
 class Stage_clock {
  public:
-  explicit Stage_clock(std::vector<Segmentation_report::Stage>& stages) : stages_(stages) {}
+  using Time = std::chrono::steady_clock::time_point;
+
+  static Time now() { return std::chrono::steady_clock::now(); }
+
+  /// \param begin of the first stage
+  explicit Stage_clock(std::vector<Segmentation_report::Stage>& stages, Time begin = now())
+      : stages_(stages), last_(begin) {}
 
   /// Ends a stage, which began where the one before it ended.
-  void note(const char* stage) {
-    const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
-    last_ = now;
-  }
+  void note(const char* stage);
 
  private:
   std::vector<Segmentation_report::Stage>& stages_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  Time last_;
 };
 
 }  // namespace internal
 }  // namespace RW_segmentation
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/Segmentation_report.h>
+#endif
 
 #endif

@@ -43,21 +43,28 @@ struct Merged_fragments {
   Merge_tree tree;
   std::vector<std::size_t> fragment_of_face;
   Segmentation_report report;
+
+  Merged_fragments();
+  Merged_fragments(Merged_fragments&&) noexcept;
+  Merged_fragments& operator=(Merged_fragments&&) noexcept;
+  ~Merged_fragments();
 };
 
 /// Refuses no seeding.
 /// \throws std::invalid_argument
-inline void require_seedings(std::size_t seedings) {
-  if (seedings == 0) throw argument_error("seedings", seedings, "at least 1");
-}
+void require_seedings(std::size_t seedings);
 
 /// Segments a mesh that has been read: seeds, walk, merging.
 /// \tparam Mesh a `Dual_mesh_of`, or `Dual_mesh` for policies that ask for no descriptors
+/// \param begin when its reading began
 template <class ConcurrencyTag, class Mesh, class Policies>
 Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
                                      const std::vector<Dual_mesh::Index>& given, const Progress& progress,
-                                     Segmentation_report report) {
-  Stage_clock clock(report.stages);
+                                     Stage_clock::Time begin) {
+  Merged_fragments merged;
+  Segmentation_report& report = merged.report;
+  Stage_clock clock(report.stages, begin);
+  clock.note("mesh");
   Mesh shape = mesh;
   std::vector<double> difference, conductance;
   Components component;
@@ -112,7 +119,6 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
   report.degenerate_faces = shape.number_of_degenerate_faces();
   report.island_faces = fragments.island_faces;
   report.has_heavy_noise = &shape.points() != &mesh.points();
-  Merged_fragments merged;
   if (refinement) {
     merged.tree = merge_by_consensus(shape, *refinement, difference, *cost, progress.part(0.9, 1));
     merged.fragment_of_face = std::move(refinement->of_face);
@@ -125,7 +131,6 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
   report.fragments = merged.tree.number_of_fragments();
   clock.note("merging");
   progress(1);
-  merged.report = std::move(report);
   return merged;
 }
 
@@ -133,7 +138,37 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
 template <class ConcurrencyTag>
 Merged_fragments segment_by_automatic_policies(const Dual_mesh& mesh, const Automatic_policies& policies,
                                                const std::vector<Dual_mesh::Index>& given, const Progress& progress,
-                                               Segmentation_report report);
+                                               Stage_clock::Time begin);
+
+/// Segments a mesh that has been read by any policies; what a mesh without faces becomes is empty.
+template <class ConcurrencyTag, class FaceListGraph, class Policies, class SeedRange>
+Merged_fragments merged_fragments(const Dual_mesh_of<FaceListGraph>& mesh, const Policies& policies,
+                                  const SeedRange& given_seeds, const Progress& progress, Stage_clock::Time begin) {
+  const std::vector<Dual_mesh::Index> given = read_seeds(mesh, given_seeds);
+  if (mesh.number_of_faces() == 0) return {};
+  if constexpr (std::is_convertible_v<const Policies*, const Automatic_policies*>)
+    return segment_by_automatic_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
+  else
+    return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
+}
+
+/// The segment of each face where merging stops at a number of segments.
+/// \throws std::invalid_argument if there are more components or fewer fragments than that
+std::vector<std::size_t> segment_of_faces(const Merged_fragments& merged, std::size_t number_of_segments);
+
+/// Whether policies and named parameters are such; says so where they are not.
+template <class Policies, class NamedParameters>
+constexpr bool are_arguments() {
+  static_assert(
+      is_segmentation_policies<Policies>,
+      "Segmentation_policies are needed here, such as Automatic_segmentation(6) for six segments, or CGAL's named "
+      "parameters.");
+  static_assert(
+      has_only_names_of_stages<NamedParameters>,
+      "Segmentation via random walks takes the named parameters vertex_point_map, edge_is_constrained_map and "
+      "callback.");
+  return is_segmentation_policies<Policies> && has_only_names_of_stages<NamedParameters>;
+}
 
 }  // namespace internal
 
@@ -151,35 +186,18 @@ template <
 Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarchy_via_random_walks(
     const FaceListGraph& mesh, const Policies& policies = Policies(), const SeedRange& given_seeds = {},
     const NamedParameters& np = CGAL::parameters::default_values()) {
-  static_assert(
-      internal::is_segmentation_policies<Policies>,
-      "Segmentation_policies are needed here, such as Automatic_segmentation(6) for six segments, or CGAL's named "
-      "parameters.");
-  static_assert(
-      internal::has_only_names_of_stages<NamedParameters>,
-      "Segmentation via random walks takes the named parameters vertex_point_map, edge_is_constrained_map and "
-      "callback.");
+  using Hierarchy = Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type>;
+  static_assert(internal::are_arguments<Policies, NamedParameters>());
   internal::require_reduction_numbers(policies.reduction);
   internal::require_seedings(policies.seedings);
-  return internal::with_threads<ConcurrencyTag>(
-      [&]() -> Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> {
-        Segmentation_report report;
-        internal::Stage_clock clock(report.stages);
-        const auto& dual = internal::dual_mesh(mesh, np);
-        const std::vector<Dual_mesh::Index> given = internal::read_seeds(dual, given_seeds);
-        if (dual.number_of_faces() == 0) return {};
-        clock.note("mesh");
-        internal::Merged_fragments merged = [&] {
-          if constexpr (std::is_convertible_v<const Policies*, const internal::Automatic_policies*>)
-            return internal::segment_by_automatic_policies<ConcurrencyTag>(
-                dual, policies, given, internal::progress_of(np), std::move(report));
-          else
-            return internal::segment_by_policies<ConcurrencyTag>(dual, policies, given, internal::progress_of(np),
-                                                                 std::move(report));
-        }();
-        return {{std::move(merged.tree), dual.face_descriptors(), std::move(merged.fragment_of_face)},
-                std::move(merged.report)};
-      });
+  return internal::with_threads<ConcurrencyTag>([&]() -> Hierarchy {
+    const internal::Stage_clock::Time begin = internal::Stage_clock::now();
+    const auto& dual = internal::dual_mesh(mesh, np);
+    internal::Merged_fragments merged =
+        internal::merged_fragments<ConcurrencyTag>(dual, policies, given_seeds, internal::progress_of(np), begin);
+    return {{std::move(merged.tree), dual.face_descriptors(), std::move(merged.fragment_of_face)},
+            std::move(merged.report)};
+  });
 }
 
 /// As above, with named parameters after the mesh or the policies.
@@ -249,16 +267,22 @@ std::size_t segmentation_via_random_walks(const FaceListGraph& mesh, SegmentIdMa
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
   static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                 "segment_ids must be a writable property map from the mesh's face_descriptor to std::size_t.");
-  static_assert(
-      internal::is_segmentation_policies<Policies>,
-      "Segmentation_policies are needed here, such as Automatic_segmentation(6) for six segments, or CGAL's named "
-      "parameters.");
   if constexpr (internal::is_writable_map<SegmentIdMap, face_descriptor> &&
-                internal::is_segmentation_policies<Policies>)
-    return hierarchy_via_random_walks<ConcurrencyTag>(mesh, policies, given_seeds, np)
-        .segments(policies.stop, segment_ids);
-  else
+                internal::are_arguments<Policies, NamedParameters>()) {
+    internal::require_reduction_numbers(policies.reduction);
+    internal::require_seedings(policies.seedings);
+    return internal::with_threads<ConcurrencyTag>([&] {
+      const internal::Stage_clock::Time begin = internal::Stage_clock::now();
+      const auto& dual = internal::dual_mesh(mesh, np);
+      const internal::Merged_fragments merged =
+          internal::merged_fragments<ConcurrencyTag>(dual, policies, given_seeds, internal::progress_of(np), begin);
+      const std::size_t segments = internal::segments_at_stop(merged.tree, policies.stop);
+      dual.write_faces(internal::segment_of_faces(merged, segments), segment_ids);
+      return segments;
+    });
+  } else {
     return 0;
+  }
 }
 
 /// As above, with named parameters after the output or the policies.

@@ -10,8 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,6 +33,10 @@ template <class SeedRange, class Face>
 struct Is_seed_range<SeedRange, Face, std::void_t<decltype(*std::begin(std::declval<const SeedRange&>()))>>
     : Is_seed<decltype(*std::begin(std::declval<const SeedRange&>())), Face> {};
 
+/// Given seeds without those that are there already.
+/// \throws std::invalid_argument if a seed is none of the `number_of_faces`, naming it by its place
+std::vector<Dual_mesh::Index> each_once(std::vector<Dual_mesh::Index> seeds, std::size_t number_of_faces);
+
 /// Seeds as numbers of faces, each once.
 /// \throws std::invalid_argument if a seed is not a face of the mesh, naming its place
 template <class FaceListGraph, class SeedRange>
@@ -43,23 +45,19 @@ std::vector<Dual_mesh::Index> read_seeds(const Dual_mesh_of<FaceListGraph>& mesh
   static_assert(Is_seed_range<SeedRange, face_descriptor>::value,
                 "Seeds are a range of faces of the mesh, or of pairs of a face and a label.");
   std::vector<Dual_mesh::Index> faces;
-  std::vector<bool> known(mesh.number_of_faces(), false);
-  std::size_t place = 0;
   for (const auto& seed : seeds) {
-    Dual_mesh::Index face = 0;
     if constexpr (std::is_convertible_v<decltype(seed), face_descriptor>)
-      face = mesh.index(seed);
+      faces.push_back(mesh.index(seed));
     else
-      face = mesh.index(seed.first);
-    if (face == mesh.none)
-      throw std::invalid_argument("given seed " + std::to_string(place) + " is not a face of the mesh");
-    if (!known[face]) faces.push_back(face);
-    known[face] = true;
-    ++place;
+      faces.push_back(mesh.index(seed.first));
   }
-  return faces;
+  return each_once(std::move(faces), mesh.number_of_faces());
 }
 
 }  // namespace RW_segmentation::internal
+
+#ifndef RW_SEGMENTATION_COMPILED
+#include <RW_segmentation/internal/definitions/read_seeds.h>
+#endif
 
 #endif
