@@ -561,23 +561,28 @@ int main(int argc, char* argv[]) {
   std::size_t threads = 1;
   std::vector<std::string> names = {"people"};
   for (const auto& [name, method] : methods()) names.push_back(name);
+  const std::vector<std::pair<std::string, std::string>> comparisons = {
+      {"automatic", "size_aware"},    {"count", "size_aware_count"},    {"levels", "size_aware_levels"},
+      {"four_seedings", "automatic"}, {"four_seedings_count", "count"}, {"automatic", "one_seeding"},
+      {"count", "one_seeding_count"}};
   app.add_option("--data", data, "folder with data/off and data/seg/Benchmark")
       ->required()
       ->check(CLI::ExistingDirectory);
   app.add_option("--meshes", meshes, "file with the numbers of the meshes; default: all in the folder");
-  app.add_option("--method", chosen, "what segments, one or several")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
+  auto* method_option = app.add_option("--method", chosen, "what segments, one or several")
+                            ->check(CLI::IsMember(names))
+                            ->capture_default_str();
   app.add_option("--noise", changes.noise, "displace the vertices, in percent of the diagonal")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--faces", changes.faces, "factor for the number of faces: 4, 1 or less than 1")
       ->check(CLI::Range(0.01, 4.));
   app.add_option("--threads", threads, "meshes at once; times are then those of a busy machine")
       ->check(CLI::Range(1, 1024));
-  auto* fold_option = app.add_option("--folds", folds,
-                                     "what the trees of the learned merge cost know nothing of: the mesh's category;\n"
-                                     "compares with the size-aware cost, and numbers of seedings")
-                          ->check(CLI::IsMember({"category"}));
+  auto* fold_option =
+      app.add_option("--folds", folds,
+                     "what the trees of the learned merge cost know nothing of: the mesh's category;\n"
+                     "compares with the size-aware cost, and numbers of seedings, unless --method tells others")
+          ->check(CLI::IsMember({"category"}));
   app.add_option("--trees", trees, "file of such trees, as train_merge_cost.py writes it to its --folds")
       ->check(CLI::ExistingFile)
       ->needs(fold_option);
@@ -593,9 +598,10 @@ int main(int argc, char* argv[]) {
     if (!folds.empty()) {
       if (trees.empty()) throw std::invalid_argument("--folds needs --trees");
       trees_of_folds.emplace(trees);
-      chosen = {"automatic",   "size_aware",        "count",         "size_aware_count",
-                "levels",      "size_aware_levels", "four_seedings", "four_seedings_count",
-                "one_seeding", "one_seeding_count"};
+      if (method_option->count() == 0)
+        for (const auto& [method, other] : comparisons)
+          for (const std::string& name : {method, other})
+            if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
     }
     const auto all_methods = methods(trees_of_folds ? &*trees_of_folds : nullptr);
 
@@ -616,11 +622,12 @@ int main(int argc, char* argv[]) {
       print_table(chosen[m], scores[m]);
       results.push_back(result_of(chosen[m], changes, scores[m]));
     }
-    // By their places among the methods chosen.
-    const std::vector<std::pair<std::size_t, std::size_t>> comparisons = {{0, 1}, {2, 3}, {4, 5}, {6, 0},
-                                                                          {7, 2}, {0, 8}, {2, 9}};
-    for (std::size_t i = 0; trees_of_folds && i < comparisons.size(); ++i) {
-      const auto [m, other] = comparisons[i];
+    const auto place = [&](const std::string& name) {
+      return static_cast<std::size_t>(std::find(chosen.begin(), chosen.end(), name) - chosen.begin());
+    };
+    for (const auto& [method, with] : comparisons) {
+      const std::size_t m = place(method), other = place(with);
+      if (!trees_of_folds || m == chosen.size() || other == chosen.size()) continue;
       print_comparison(chosen[m], scores[m], chosen[other], scores[other]);
       const std::vector<double> difference = gains(scores[m], scores[other]);
       results[m].add("folds", folds).add("difference", mean(difference));
