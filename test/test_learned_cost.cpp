@@ -208,7 +208,7 @@ TEST(LearnedCost, IsThatOfItsFormula) {
   const internal::Decision_tree constant = {{{{0, 0, -1, -1}}}, {{std::log(3.)}}};
   const internal::Boosted_trees odds_of_three = {&constant, 1};
   const Learned_cost cost(shape, thickness, odds_of_three);
-  const Size_aware_cost size_aware(thickness);
+  const Size_aware_cost size_aware(thickness, internal::crease_weight(shape.number_of_edges()));
   const auto difference = smoothed_concavity()(shape);
   std::array<Learned_cost::Region, 2> regions;
   std::array<Size_aware_cost::Region, 2> sizes;

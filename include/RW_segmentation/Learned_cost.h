@@ -70,14 +70,16 @@ class Learned_cost {
   explicit Learned_cost(const Dual_mesh& shape, std::vector<double> thickness = {},
                         const internal::Boosted_trees& trees = internal::learned_trees());
 
-  /// For a part of a mesh: its regions and boundaries are told by what is ordinary on the whole.
+  /// For the sums of a part of a mesh: its regions and boundaries are told by what is ordinary on the whole.
   /// \param part of the mesh, with the normals of `smoothed_shape()`
   /// \param thickness by face of the part, as above
   Learned_cost(const Dual_mesh& part, std::vector<double> thickness, const internal::Mean_concavity& whole);
 
   /// For regions and boundaries that are there already; it can make none.
   /// \param is_solid whether enough of the whole mesh has a thickness
-  explicit Learned_cost(bool is_solid) : is_solid_(is_solid), trees_(&internal::learned_trees()) {}
+  /// \param crease_weight w of the `Size_aware_cost` of the whole mesh
+  Learned_cost(bool is_solid, double crease_weight)
+      : is_solid_(is_solid), size_aware_({}, crease_weight), trees_(&internal::learned_trees()) {}
 
   /// With a stored thickness, as `local_thickness()` writes it.
   ///

@@ -224,6 +224,7 @@ struct Tile_walk {
   std::size_t components = 0;            ///< connected parts of the whole mesh
   std::size_t island_clusters = 0;       ///< that the walk left apart from their fragment, moved to a neighbour
   bool is_solid = false;                 ///< whether enough of the whole has a thickness
+  double crease_weight = 1;              ///< of the merge cost, by the number of edges of the whole
 };
 
 /// What `merge_tiles()` needs of a tile: sums over its regions and their boundaries.

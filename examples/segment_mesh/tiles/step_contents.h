@@ -108,6 +108,7 @@ void transfer(Archive& a, Tile_seeds& x) {
   a(x.probes);
   a(x.ordinary.turn);
   a(x.ordinary.excess);
+  a(x.ordinary.crease_weight);
   a(x.turned_sides);
 }
 
@@ -144,6 +145,7 @@ void transfer(Archive& a, Tile_walk& x) {
   a(x.components);
   a(x.island_clusters);
   a(x.is_solid);
+  a(x.crease_weight);
 }
 
 template <class Archive>

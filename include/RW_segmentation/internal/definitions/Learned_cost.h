@@ -257,7 +257,7 @@ RW_SEGMENTATION_INLINE const Boosted_trees& learned_trees() {
 RW_SEGMENTATION_INLINE Learned_cost::Learned_cost(const Dual_mesh& shape, std::vector<double> thickness,
                                                   const internal::Boosted_trees& trees)
     : is_solid_(internal::is_solid(thickness)),
-      size_aware_(std::move(thickness)),
+      size_aware_(std::move(thickness), internal::crease_weight(shape.number_of_edges())),
       concavity_(std::make_shared<const internal::Edge_concavity>(shape)),
       trees_(&trees) {}
 

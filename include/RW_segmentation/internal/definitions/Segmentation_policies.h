@@ -12,8 +12,9 @@
 namespace RW_segmentation {
 
 RW_SEGMENTATION_INLINE Size_aware_cost Size_aware_cost_policy::operator()(const Dual_mesh& mesh) const {
-  return thickness.samples == 0 ? Size_aware_cost()
-                                : Size_aware_cost(internal::thickness_of_faces(mesh, thickness, {}));
+  return Size_aware_cost(
+      thickness.samples == 0 ? std::vector<double>() : internal::thickness_of_faces(mesh, thickness, {}),
+      internal::crease_weight(mesh.number_of_edges()));
 }
 
 RW_SEGMENTATION_INLINE Learned_cost Learned_cost_policy::operator()(const Dual_mesh& mesh) const {

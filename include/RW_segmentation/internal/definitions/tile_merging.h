@@ -134,7 +134,7 @@ RW_SEGMENTATION_INLINE std::vector<Boundary_of_regions<Tile_regions::Boundary_su
 
 RW_SEGMENTATION_INLINE Merge_tree merge_tiles(const Tile_walk& walk, const std::vector<Tile_regions>& tiles,
                                               const Progress& progress) {
-  const Learned_cost cost(walk.is_solid);
+  const Learned_cost cost(walk.is_solid, walk.crease_weight);
   std::vector<Learned_cost::Region> regions(walk.number_of_fragments);
   for (const Tile_regions& tile : tiles)
     for (std::size_t i = 0; i < tile.regions.size(); ++i) cost.join(regions[tile.fragments[i]], tile.regions[i]);

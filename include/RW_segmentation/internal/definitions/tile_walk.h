@@ -45,7 +45,8 @@ inline Mean_concavity ordinary_concavity(const Tile_plan& plan, const std::vecto
   const double mean = edges > 0 ? turn / edges : 0;
   if (edges == 0 || mean < flat_turn(plan.box.rounding, length / edges)) return {};
   return {mean,
-          Turn_histogram::mean(counts, [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; })};
+          Turn_histogram::mean(counts, [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; }),
+          crease_weight(static_cast<std::size_t>(edges))};
 }
 
 /// The coarse graph of the whole, with the lengths of its edges.
@@ -215,6 +216,7 @@ RW_SEGMENTATION_INLINE Tile_walk internal::walk_over_tiles(const Tile_plan& plan
   const auto known = static_cast<std::size_t>(
       std::count_if(walk.thickness.begin(), walk.thickness.end(), [](double t) { return t > 0; }));
   walk.is_solid = internal::is_solid(known, plan.faces);
+  walk.crease_weight = seeds.ordinary.crease_weight;
 
   const internal::Joined_nodes nodes(networks, [](const Tile_network& network) { return network.clusters; });
   std::vector<double> conductances;
