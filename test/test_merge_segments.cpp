@@ -5,8 +5,10 @@
 #include <RW_segmentation/Region_boundary.h>
 #include <RW_segmentation/Relative_boundary_cost.h>
 #include <RW_segmentation/Segment_hierarchy.h>
+#include <RW_segmentation/Segmentation_policies.h>
 #include <RW_segmentation/Size_aware_cost.h>
 #include <RW_segmentation/merge_segments.h>
+#include <RW_segmentation/smoothed_face_normals.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -18,6 +20,7 @@
 #include "mesh_graph.h"
 #include "meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -153,12 +156,44 @@ TEST(MergeSegments, RelativeBoundaryCostFollowsEquation10) {
 TEST(MergeSegments, SizeAwareCostFollowsItsFormula) {
   const Surface_mesh mesh = bumpy_torus();
   const Labels fragments = cells(Mesh_graph<Surface_mesh>(mesh), 60);
-  const auto expected =
-      costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
-                          [](double a, double b, const Edge_sums& common, const Edge_sums&) {
-                            return (common.difference / common.length + 0.1) * (a * b / (a + b)) / common.length;
-                          });
-  expect_costs(mesh, fragments, Size_aware_cost(), expected);
+  const auto expected_with = [&](double weight) {
+    return costs_by_definition(mesh, fragments, Dihedral_difference<Surface_mesh>(mesh),
+                               [weight](double a, double b, const Edge_sums& common, const Edge_sums&) {
+                                 return (weight * common.difference / common.length + 0.1) * (a * b / (a + b)) /
+                                        common.length;
+                               });
+  };
+  expect_costs(mesh, fragments, Size_aware_cost(), expected_with(1));
+  expect_costs(mesh, fragments, Size_aware_cost({}, 2.5), expected_with(2.5));
+  const double distance = std::sqrt(2 / (std::sqrt(3.) * static_cast<double>(num_edges(mesh))));  // of centroids
+  ASSERT_GT(distance, 0.01);
+  const Dual_mesh_of dual(mesh);
+  Size_aware_cost_policy without_thickness;
+  without_thickness.thickness.samples = 0;
+  expect_costs(mesh, fragments, without_thickness(dual), expected_with(distance / 0.01));
+}
+
+TEST(MergeSegments, TheCostOfACreaseHardlyDependsOnTheNumberOfFaces) {
+  // 112 to 28 672 faces. By the mean difference alone, the coarsest mesh would have a fifth of the finest one's cost.
+  std::vector<double> costs;
+  for (const std::size_t n : {2, 4, 8, 16, 32}) {
+    const Surface_mesh mesh = meshes::surface_mesh(meshes::l_shape(n));
+    const Dual_mesh_of dual(mesh);
+    const auto shape = smoothed_shape(dual);
+    Labels fragments;
+    for (Dual_mesh::Index f = 0; f < dual.number_of_faces(); ++f)
+      fragments.push_back(dual.unit() * dual.centroid(f).x() + dual.origin().x() > 1);
+    Face_labels<Surface_mesh> ids(mesh, fragments);
+    Size_aware_cost_policy without_thickness;
+    without_thickness.thickness.samples = 0;
+    costs.push_back(
+        merge_segments(shape, ids.map(), Dihedral_difference(shape, smoothed_concavity()), without_thickness(shape))
+            .merges()
+            .at(0)
+            .cost);
+  }
+  const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+  EXPECT_LT(*most / *least, 2);
 }
 
 TEST(MergeSegments, ThicknessRaisesTheSizeAwareCost) {
