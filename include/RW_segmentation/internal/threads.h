@@ -69,13 +69,15 @@ void at_the_same_time(const Background& in_background, const Here& here) {
 template <class ConcurrencyTag, class Work>
 auto with_threads(const Work& work) {
 #ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (!has_threads<ConcurrencyTag>()) {
+  if constexpr (has_threads<ConcurrencyTag>()) {
+    return work();
+  } else if constexpr (std::is_void_v<decltype(work())>) {
+    run_by_calling_thread_alone(Task_reference<>(work));
+  } else {
     std::optional<decltype(work())> result;
     const auto keep_result = [&] { result.emplace(work()); };
     run_by_calling_thread_alone(Task_reference<>(keep_result));
     return *std::move(result);
-  } else {
-    return work();
   }
 #else
   return work();
