@@ -2,6 +2,7 @@
 
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
+#include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>
 #include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
@@ -251,6 +252,27 @@ TEST(SegmentationIntoSurfaces, FindsLongTrianglesOfPipesUnderNoise) {
     const solids::Solid elbow = solids::with_noise(solids::pipe_elbow(solids::by_kernel()), 0.3, seed);
     for (const double overlap : best_overlaps(elbow, segments_of(elbow))) EXPECT_GE(overlap, 0.75);
   }
+}
+
+TEST(SegmentationIntoSurfaces, FindsFilletsBesidePlanesUnderNoise) {
+  // Noise of half the distance by which the first row of a fillet's triangles leaves the plane beside it.
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const solids::Solid solid = solids::with_noise(solids::rounded_box(solids::by_kernel()), 0.1, seed);
+    EXPECT_LE(rand_error(segments_of(solid), solid.label), 0.025) << seed;
+  }
+}
+
+TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
+  const auto is_independent = [](const solids::Solid& solid) {
+    const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+    const Dual_mesh_of<meshes::Surface_mesh> dual(mesh);
+    return internal::Noise_estimate(dual, internal::surface_tolerance(dual, -1)).is_independent();
+  };
+  for (const solids::Solid& clean : solids::all(solids::even(0.1)))
+    for (const double noise : {0.1, 0.3}) {
+      EXPECT_TRUE(is_independent(solids::with_noise(clean, noise))) << clean.name;
+      EXPECT_FALSE(is_independent(solids::scanned(clean, noise))) << clean.name;
+    }
 }
 
 TEST(SegmentationIntoSurfaces, DrawsNoJaggedBoundariesUnderNoise) {

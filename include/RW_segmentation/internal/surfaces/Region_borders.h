@@ -7,6 +7,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
+#include <RW_segmentation/internal/surfaces/Face_energy.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Minimum_cut.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
@@ -23,19 +24,26 @@
 
 namespace RW_segmentation::internal {
 
+/// Of each region: 1 if its surface's normals point out of the solid, -1 if into it.
+inline std::vector<double> signs_of(const Dual_mesh& mesh, const Analytic_regions& regions) {
+  std::vector<double> sums(regions.surfaces.size(), 0);
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f)
+    if (const std::size_t region = regions.region_of_face[f]; region != Analytic_regions::none)
+      sums[region] += mesh.area(f) * regions.surfaces[region].normal(mesh.centroid(f)).dot(mesh.shape_normals()[f]);
+  for (double& sum : sums) sum = sum < 0 ? -1 : 1;
+  return sums;
+}
+
 /// Moves faces at the borders of regions to the neighbour whose surface they fit best, and lets faces of the remainder
 /// join a region that they fit. Under noise a face alone cannot tell: short borders count, too, and surfaces are fitted
 /// again to what they have become.
-///
-/// What comments tell of other values of a number was measured on made solids with noise of .3 % of the diagonal:
-/// `benchmark_engineering --noise .3 --noise-seeds 4`.
 class Region_borders {
  public:
   using Index = Dual_mesh::Index;
 
   /// Keeps references to all.
   Region_borders(const Dual_mesh& mesh, const Surface_tolerance& tolerance, Analytic_regions& regions)
-      : mesh_(mesh), tolerance_(tolerance), regions_(regions) {}
+      : mesh_(mesh), tolerance_(tolerance), energy_(mesh, tolerance), regions_(regions) {}
 
   /// Reports that all is done, again and again, so that it can be cancelled.
   void settle(const Progress& progress) {
@@ -48,13 +56,11 @@ class Region_borders {
 
  private:
   static constexpr std::size_t none = Analytic_regions::none, no_node = none;
-  /// Nats, as `energy()`, of a face that is no neighbour of its region. At 4 and at 16, Rand error .037 in place of .033.
-  static constexpr double whole_border = 8;
 
   void settle_exact() {
     constexpr int most_sweeps = 4;
     constexpr double unexplained = 2;  // all of the distance and all of the angle that are allowed
-    const std::vector<double> sign = signs();
+    const std::vector<double> sign = signs_of(mesh_, regions_);
     const auto any = [](std::size_t) { return true; };
     move_faces(most_sweeps, any, [&](Index f, std::size_t region) {
       return region == none ? unexplained : misfit(region, sign[region], f);
@@ -65,16 +71,16 @@ class Region_borders {
   /// Zabih 2001), and fits the surfaces to what the regions have become, in turns.
   void settle_noisy() {
     constexpr int most_rounds = 4, most_sweeps = 6;
-    constexpr double unexplained = 6;  // nats, as `energy()`; at 3, Rand error .034 in place of .033, at 12 the same
     const auto has_none = [](std::size_t region) { return region == none; };
     std::vector<char> is_new(regions_.surfaces.size(), true);
     node_of_face_.assign(mesh_.number_of_faces(), no_node);
     for (int round = 0; round < most_rounds; ++round) {
       const std::vector<std::size_t> before = regions_.region_of_face;
       fit_again(is_new);
-      const std::vector<double> sign = signs();
+      const std::vector<double> sign = signs_of(mesh_, regions_);
       move_faces(most_sweeps, has_none, [&](Index f, std::size_t region) {
-        return border_energy(region, f) + (region == none ? unexplained : energy(region, sign[region], f));
+        return border_energy(region, f) +
+               (region == none ? Face_energy::unexplained : energy_(regions_.surfaces[region], sign[region], f));
       });
       cut_between_neighbours(sign, is_new);
       if (regions_.region_of_face == before) break;
@@ -133,7 +139,7 @@ class Region_borders {
     std::array<std::vector<double>, 2> costs;  // of each face in either region
   };
 
-  /// \param sign of each region, see `signs()`
+  /// \param sign of each region, see `signs_of()`
   /// \param is_new each region: between two that are not, nothing has changed since they were cut
   void cut_between_neighbours(const std::vector<double>& sign, const std::vector<char>& is_new) {
     std::map<std::array<std::size_t, 2>, std::vector<Index>> borders;  // the faces on both sides
@@ -169,11 +175,11 @@ class Region_borders {
     for (std::size_t first = 0; first < contest.faces.size();) {  // a ring farther from the border each time
       const std::size_t end = contest.faces.size();
       for (std::size_t side = 0; side < 2; ++side)
-        append_energies(regions[side], sign[regions[side]], contest.faces, contest.costs[side]);
+        energy_.append(regions_.surfaces[regions[side]], sign[regions[side]], contest.faces, contest.costs[side]);
       for (; first < end; ++first) {
         const Index f = contest.faces[first];
         const std::size_t own = side_of(contest, f);
-        if (contest.costs[1 - own][first] - contest.costs[own][first] >= whole_border) continue;
+        if (contest.costs[1 - own][first] - contest.costs[own][first] >= Face_energy::whole_border) continue;
         for (const auto& [g, e] : mesh_.graph().neighbours(f))
           if (!mesh_.is_wall(e)) add(g);
       }
@@ -188,7 +194,7 @@ class Region_borders {
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (const auto& [g, e] : mesh_.graph().neighbours(faces[i])) {
         if (!is_in(contest, g) || mesh_.is_wall(e)) continue;
-        const double cost = border_energy(faces[i], g, e);
+        const double cost = energy_.of_border(faces[i], g, e);
         if (node_of_face_[g] == no_node)
           contest.costs[1 - side_of(contest, g)][i] += cost;
         else if (faces[i] < g)
@@ -229,62 +235,13 @@ class Region_borders {
     }
   }
 
-  /// Of each region: 1 if its surface's normals point out of the solid, -1 if into it.
-  std::vector<double> signs() const {
-    std::vector<double> sums(regions_.surfaces.size(), 0);
-    for (Index f = 0; f < mesh_.number_of_faces(); ++f)
-      if (const std::size_t region = regions_.region_of_face[f]; region != none)
-        sums[region] += mesh_.area(f) * regions_.surfaces[region].normal(mesh_.centroid(f)).dot(normal(f));
-    for (double& sum : sums) sum = sum < 0 ? -1 : 1;
-    return sums;
-  }
-
   /// Distance and angle, as parts of what is allowed.
   double misfit(std::size_t region, double sign, Index f) const {
     return with_type_of(regions_.surfaces[region], [&](const auto& surface) {
       double farthest = 0;
       for (const Index v : mesh_.corners(f)) farthest = std::max(farthest, std::abs(surface.distance(mesh_.point(v))));
-      return farthest / tolerance_.largest_distance() + angle(surface, sign, f) / tolerance_.normal_angle[f];
+      return farthest / tolerance_.largest_distance() + energy_.angle(surface, sign, f) / tolerance_.normal_angle[f];
     });
-  }
-
-  /// How unlikely it is that noise puts a face where it is: the data term of a Potts model, half the sum of squared
-  /// deviations.
-  double energy(std::size_t region, double sign, Index f) const {
-    return with_type_of(regions_.surfaces[region], [&](const auto& surface) { return energy(surface, sign, f); });
-  }
-
-  /// The energies of faces in a region.
-  /// \param energies of the first ones; those of the others are appended
-  void append_energies(std::size_t region, double sign, const std::vector<Index>& faces,
-                       std::vector<double>& energies) const {
-    with_type_of(regions_.surfaces[region], [&](const auto& surface) {
-      while (energies.size() < faces.size()) energies.push_back(energy(surface, sign, faces[energies.size()]));
-    });
-  }
-
-  template <class Surface>
-  double energy(const Surface& surface, double sign, Index f) const {
-    constexpr double most_squares = 30;  // an outlier is no worse than that
-    constexpr double allowed_angle = 3;  // in deviations; at 4, Rand error .034 in place of .033
-    // A corner tells about its other faces as well. At 2, Rand error .033 in place of .031; at 6, as many as a vertex has,
-    // .029, but up to twice the segments on CAD solids.
-    constexpr double shared_corners = 4;
-    double distances = 0;
-    for (const Index v : mesh_.corners(f)) {
-      const double distance = surface.distance(mesh_.point(v)) / tolerance_.distance;
-      distances += distance * distance;
-    }
-    const double turn = allowed_angle * angle(surface, sign, f) / tolerance_.normal_angle[f];
-    return (std::min(distances, most_squares) / shared_corners + std::min(turn * turn, most_squares)) / 2;
-  }
-
-  /// The angle between a face and a surface, 0 if the face has no normal.
-  template <class Surface>
-  double angle(const Surface& surface, double sign, Index f) const {
-    if (normal(f).isZero()) return 0;
-    const double cosine = sign * surface.normal(mesh_.centroid(f)).dot(normal(f));
-    return std::acos(std::clamp(cosine, -1., 1.));
   }
 
   /// Of a face on its border: the length of the edges to other regions, as a part of all.
@@ -292,25 +249,12 @@ class Region_borders {
     double border = 0;
     for (const auto& [g, e] : mesh_.graph().neighbours(f))
       if (regions_.region_of_face[g] != region) border += mesh_.edge_length(e);
-    return border > 0 ? whole_border * border / perimeter(f) : 0;
+    return border > 0 ? Face_energy::whole_border * border / energy_.perimeter(f) : 0;
   }
-
-  /// Of an edge between two regions: the mean of what it is to both faces.
-  double border_energy(Index f, Index g, Index edge) const {
-    const double length = mesh_.edge_length(edge);
-    return length > 0 ? whole_border * length * (1 / perimeter(f) + 1 / perimeter(g)) / 2 : 0;
-  }
-
-  double perimeter(Index f) const {
-    double length = 0;
-    for (const auto& [g, e] : mesh_.graph().neighbours(f)) length += mesh_.edge_length(e);
-    return length;
-  }
-
-  const Eigen::Vector3d& normal(Index face) const { return mesh_.shape_normals()[face]; }
 
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
+  const Face_energy energy_;
   Analytic_regions& regions_;
   Progress progress_;
   std::vector<std::size_t> node_of_face_;  // under noise: the number of each face in the present `Contest`
