@@ -49,7 +49,7 @@ TYPED_TEST_SUITE(Automatic, meshes::Holders);
 }  // namespace
 
 TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
-  const meshes::Shape shape = meshes::two_spheres_with_neck(2.0001, 0.2, 48);
+  const meshes::Shape shape = meshes::two_spheres_with_neck(2.0001, 0.1, 48);  // with a radius of 0.2, necks are rings
   const TypeParam held(shape);
   Face_labels<typename TypeParam::Mesh> ids(held.mesh);
   EXPECT_EQ(segmentation_via_random_walks(held.mesh, ids.map()), 2u);
@@ -58,6 +58,19 @@ TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
     if (std::abs(z) < 0.2) continue;
     EXPECT_EQ(ids.values()[f], z < 0 ? ids.values().front() : ids.values().back()) << z;
   }
+}
+
+TEST(AutomaticOfFewFaces, CutsSpheresApartAtTheSameCostAsOfMany) {
+  // 1152 to 8192 faces. Relative to the mean of the mesh alone, costs of the coarsest are .75 of those of the finest.
+  std::vector<double> costs;
+  for (const std::size_t around : {24, 32, 40, 48, 56, 64}) {
+    const meshes::Surface_mesh mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(2.0001, 0.1, around));
+    const auto hierarchy = hierarchy_via_random_walks(mesh);
+    EXPECT_EQ(Cost_threshold_stop(1)(hierarchy), 2u) << around;
+    costs.push_back(hierarchy.merges().back().cost);
+  }
+  const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+  EXPECT_LT(*most, 1.1 * *least);
 }
 
 TYPED_TEST(Automatic, LeavesASphereAndAPlaneWhole) {
