@@ -178,7 +178,7 @@ TEST(MergeSegments, TheCostOfACreaseHardlyDependsOnTheNumberOfFaces) {
   Size_aware_cost_policy without_thickness;
   without_thickness.thickness.samples = 0;
   std::vector<double> costs;
-  for (const std::size_t n : {2, 4, 8, 16, 32}) {
+  for (const std::size_t n : {2u, 4u, 8u, 16u, 32u}) {
     const Surface_mesh mesh = meshes::surface_mesh(meshes::l_shape(n));
     Labels fragments;
     for (const auto f : faces(mesh)) {  // one arm, and the rest

@@ -63,7 +63,7 @@ TYPED_TEST(Automatic, CutsTwoSpheresApartWhereTheyTouch) {
 TEST(AutomaticOfFewFaces, CutsSpheresApartAtTheSameCostAsOfMany) {
   // 1152 to 8192 faces. Relative to the mean of the mesh alone, costs of the coarsest are .75 of those of the finest.
   std::vector<double> costs;
-  for (const std::size_t around : {24, 32, 40, 48, 56, 64}) {
+  for (const std::size_t around : {24u, 32u, 40u, 48u, 56u, 64u}) {
     const meshes::Surface_mesh mesh = meshes::surface_mesh(meshes::two_spheres_with_neck(2.0001, 0.1, around));
     const auto hierarchy = hierarchy_via_random_walks(mesh);
     EXPECT_EQ(Cost_threshold_stop(1)(hierarchy), 2u) << around;
