@@ -14,11 +14,11 @@
 
 namespace RW_segmentation::internal {
 
-/// What is ordinary on a mesh: means over its edges.
+/// What is ordinary on a mesh: means over its edges, and what follows from their number.
 struct Mean_concavity {
   double turn = 0;           ///< of the inward turns, in radians; 0: the mesh is flat
   double excess = 0;         ///< of sqrt(t^2 - 1) over the turns t > 1, as multiples of the mean turn
-  double crease_weight = 1;  ///< by the number of edges
+  double crease_weight = 1;  ///< of the merge cost, see `crease_weight()`
 };
 
 /// How concave the edges of the smoothed shape are: a measure of the shape, whatever difference fragments are merged with.
