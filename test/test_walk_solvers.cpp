@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 #include <stdexcept>
 #include <type_traits>
@@ -180,6 +181,30 @@ TEST(StarMeshElimination, FindsTheLargestPotentialsWhereSubtreesAreEliminatedApa
   std::mt19937 random(12);
   for (const std::size_t labels : {2u, 9u, 300u})
     expect_largest(network, random_faces(network.graph, 2 * labels, random), labels);
+}
+
+TEST(StarMeshElimination, FindsAColumnForEachSeedAmongAllPotentials) {
+  std::mt19937 random(13);
+  Network graph{random_graph(300, random), {}}, parts{Dual_graph(5, {{0, 1}, {1, 2}, {3, 4}}), {1, 2, 0}};
+  graph.conductances = spread_conductances(graph.graph.number_of_edges(), 30, random);
+  const Network many_subtrees = network_of_many_subtrees();
+  for (const Network* network : std::initializer_list<const Network*>{&graph, &parts, &many_subtrees})
+    for (const std::size_t seeds : {1u, 2u, 21u}) {
+      if (seeds > network->graph.number_of_faces()) continue;
+      const std::vector<Index> faces = random_faces(network->graph, seeds, random);
+      Star_mesh_elimination solver;
+      const Potentials all = potentials(solver, *network, faces);
+      const std::vector<std::vector<double>> columns = solver.columns();
+      ASSERT_EQ(columns.size(), seeds);
+      for (std::size_t s = 0; s < seeds; ++s) {
+        const Eigen::Map<const Eigen::VectorXd> column(columns[s].data(), static_cast<Eigen::Index>(columns[s].size()));
+        ASSERT_EQ(column.size(), all.rows());
+        const auto expected = all.col(static_cast<Eigen::Index>(s));
+        EXPECT_TRUE(((column - expected).array().abs() <= 1e-11 * expected.array()).all())
+            << seeds << " seeds, seed " << s << " of " << network->graph.number_of_faces() << " faces";
+      }
+    }
+  EXPECT_THROW(Star_mesh_elimination().columns(), std::invalid_argument);
 }
 
 TEST(StarMeshElimination, FindsTheLargestPotentialsInEachPartThatASeedReaches) {

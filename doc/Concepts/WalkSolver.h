@@ -42,4 +42,8 @@ class WalkSolver {
   /// potentials, and its potential where that is known. `labels` has one entry for each absorbing face; any label will do for a face that reaches none.
   Largest_potentials largest_potentials(const std::vector<Dual_graph::Index>& labels, std::size_t number_of_labels,
                                         const Progress& progress) const;
+
+  /// Optional: the potentials when one absorbing face is held at 1 and the others at 0, a column for each of them, by face,
+  /// where that costs less than `potentials`.
+  std::vector<std::vector<double>> columns() const;
 };

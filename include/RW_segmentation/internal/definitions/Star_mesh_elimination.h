@@ -44,6 +44,10 @@ RW_SEGMENTATION_INLINE Largest_potentials Star_mesh_elimination::largest_potenti
   return factor_->largest_potentials(labels, number_of_labels, progress);
 }
 
+RW_SEGMENTATION_INLINE std::vector<std::vector<double>> Star_mesh_elimination::columns() const {
+  return factor_->columns();
+}
+
 RW_SEGMENTATION_INLINE bool Star_mesh_elimination::has_unreached_faces() const {
   return factor_->has_unreached_faces();
 }

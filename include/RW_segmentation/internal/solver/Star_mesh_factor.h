@@ -7,7 +7,9 @@
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/parallel_for.h>
+#include <RW_segmentation/internal/solver/Column_substitution.h>
 #include <RW_segmentation/internal/solver/Elimination_plan.h>
+#include <RW_segmentation/internal/solver/Label_currents.h>
 #include <RW_segmentation/internal/solver/Pruned_substitution.h>
 #include <RW_segmentation/internal/solver/front_kernels.h>
 
@@ -44,6 +46,7 @@ class Star_mesh_factor {
   void potentials(const Potentials& boundary_values, Potentials& potentials) const;
   void response(Index face, const std::vector<double>& boundary_values, std::vector<double>& column) const;
   std::vector<double> absorbed_currents(Index face) const;
+  std::vector<std::vector<double>> columns() const;
   Largest_potentials largest_potentials(const std::vector<Index>& labels, std::size_t number_of_labels,
                                         const Progress& progress = {}) const;
 
@@ -89,6 +92,10 @@ class Star_mesh_factor {
 
   [[noreturn]] static void refuse_source(Index face) {
     throw std::invalid_argument("Star_mesh_elimination: no walk from face " + std::to_string(face) + " is absorbed");
+  }
+
+  Factor_view view() const {
+    return {plan_, transition_.get(), sum_, absorbing_, absorbing_faces_, carries_current_, instructions_};
   }
 
   using Concurrency_tag = CGAL::Parallel_if_available_tag;
@@ -347,15 +354,18 @@ inline std::vector<double> Star_mesh_factor::absorbed_currents(Index face) const
   return currents;
 }
 
+inline std::vector<std::vector<double>> Star_mesh_factor::columns() const {
+  if (!transition_) throw std::invalid_argument("Star_mesh_elimination: columns of what is not factorised");
+  return Column_substitution(view()).take();
+}
+
 inline Largest_potentials Star_mesh_factor::largest_potentials(const std::vector<Index>& labels,
                                                                std::size_t number_of_labels,
                                                                const Progress& progress) const {
   if (!transition_ || labels.size() != absorbing_faces_.size())
     throw std::invalid_argument("Star_mesh_elimination: labels for " + std::to_string(labels.size()) +
                                 " faces, factorised for " + std::to_string(absorbing_faces_.size()));
-  const Factor_view factor = {plan_,        transition_.get(), sum_, absorbing_, absorbing_faces_, carries_current_,
-                              instructions_};
-  const Pruned_substitution solved(factor, labels, number_of_labels, progress);
+  const Pruned_substitution solved(view(), labels, number_of_labels, progress);
   const std::size_t n = plan_.face.size();
   Largest_potentials result = {std::vector<Index>(n), std::vector<double>(n)};
   parallel_stretches(n, [&](std::size_t begin, std::size_t end) {

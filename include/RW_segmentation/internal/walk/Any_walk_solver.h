@@ -42,6 +42,11 @@ struct Finds_largest_potentials<
            std::declval<const std::vector<Dual_graph::Index>&>(), std::size_t(), std::declval<const Progress&>()))>>
     : std::true_type {};
 
+template <class T, class = void>
+struct Finds_columns : std::false_type {};
+template <class T>
+struct Finds_columns<T, std::void_t<decltype(std::declval<const T&>().columns())>> : std::true_type {};
+
 /// A `WalkSolver` of any type, so that the walk is compiled once for all of them. A call solves for a whole mesh: that it
 /// is a virtual one costs nothing.
 class Any_walk_solver {
@@ -71,6 +76,11 @@ class Any_walk_solver {
                                         const Progress& progress) const {
     return solver_->largest_potentials(labels, number_of_labels, progress);
   }
+  /// The potentials when one absorbing face is held at 1 and the others at 0: by absorbing face, then by face.
+  /// \param absorbing_faces how many there are
+  std::vector<std::vector<double>> columns(std::size_t absorbing_faces) const {
+    return solver_->columns(absorbing_faces);
+  }
 
  private:
   struct Concept {
@@ -84,6 +94,7 @@ class Any_walk_solver {
     virtual void response(Index, const std::vector<double>&, std::vector<double>&) const = 0;
     virtual std::vector<double> absorbed_currents(Index) const = 0;
     virtual Largest_potentials largest_potentials(const std::vector<Index>&, std::size_t, const Progress&) const = 0;
+    virtual std::vector<std::vector<double>> columns(std::size_t) const = 0;
   };
 
   template <class Solver>
@@ -109,8 +120,16 @@ class Any_walk_solver {
       else
         return {};
     }
+    std::vector<std::vector<double>> columns([[maybe_unused]] std::size_t absorbing_faces) const override {
+      if constexpr (Finds_columns<Solver>::value)
+        return solver.columns();
+      else
+        return columns_of_potentials(*this, static_cast<Eigen::Index>(absorbing_faces));
+    }
     Solver solver;
   };
+
+  static std::vector<std::vector<double>> columns_of_potentials(const Concept& solver, Eigen::Index absorbing_faces);
 
   std::unique_ptr<Concept> solver_;
 };

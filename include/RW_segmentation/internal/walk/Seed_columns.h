@@ -164,24 +164,10 @@ bool Seed_columns::update(const Walk_network& network, const Walk_factor& factor
 
 /// Makes the columns of the seeds that the factor absorbs at.
 inline void Seed_columns::fill(const Walk_network& network, const Walk_factor& factor) {
-  constexpr Eigen::Index block = 8;
   const std::vector<Index>& base = factor.base();
   const auto count = static_cast<Eigen::Index>(base.size());
-  for (Eigen::Index first = 0; first < count; first += block) {
-    const Eigen::Index width = std::min(block, count - first);
-    Potentials boundary = Potentials::Zero(count, width), result;
-    boundary.middleRows(first, width).setIdentity();
-    factor.solver().potentials(boundary, result);
-    for (Eigen::Index l = 0; l < width; ++l) {
-      columns_.push_back({base[static_cast<std::size_t>(first + l)], {}, 0});
-      columns_.back().potential.resize(network.graph.number_of_faces());
-    }
-    Column* const filled = &columns_.back() + 1 - width;
-    for_stretches(network, [&](std::size_t begin, std::size_t end) {
-      for (Eigen::Index l = 0; l < width; ++l)
-        for (std::size_t f = begin; f < end; ++f) filled[l].potential[f] = result(static_cast<Eigen::Index>(f), l);
-    });
-  }
+  std::vector<std::vector<double>> potentials = factor.solver().columns(base.size());
+  for (std::size_t b = 0; b < base.size(); ++b) columns_.push_back({base[b], std::move(potentials[b]), 0});
   base_conductances_.resize(count, count);
   for (Eigen::Index r = 0; r < count; ++r)
     for (Eigen::Index b = 0; b < count; ++b)
