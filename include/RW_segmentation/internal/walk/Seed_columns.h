@@ -188,8 +188,10 @@ inline std::vector<double> Seed_columns::source_function(Index s, const Walk_net
   if (!grounded) return {};
   const auto at = std::find(base.begin(), base.end(), s);
   if (at == base.end()) {
-    std::vector<double> h;
-    const std::vector<double> values = base_values(base, factor.solver().absorbed_currents(s));
+    std::vector<double> h, values(base.size(), 0.);
+    // While the whole base is held at 0, what reaches it need not be known.
+    const bool all_are_seeds = std::all_of(base.begin(), base.end(), [&](Index b) { return has_column(b); });
+    if (!all_are_seeds) values = base_values(base, factor.solver().absorbed_currents(s));
     if (!values.empty()) factor.solver().response(s, values, h);
     return h;
   }
