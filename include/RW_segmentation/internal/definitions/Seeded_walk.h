@@ -28,6 +28,7 @@ RW_SEGMENTATION_INLINE Seeded_walk::Seeded_walk(const Dual_graph& graph, std::ve
       factor_(std::move(solver)),
       progress_(std::move(progress)) {
   normalise_conductances();
+  all_edges_conduct_ = std::all_of(conductances_.begin(), conductances_.end(), [](double c) { return c > 0; });
   components_ = Components(graph, [&](Index edge) { return conductances_[edge] > 0; });
 }
 

@@ -32,7 +32,7 @@ class Label_islands {
     std::vector<char> is_searched(labels.number_of_labels(), 0);
     for (std::size_t l = 0; l < labels.number_of_seed_labels(); ++l) is_searched[l] = !is_connected[l];
     const auto regions = Components::over_neighbours(network.graph, [&](Index face, Index next, Index edge) {
-      return is_searched[rank[face]] && rank[next] == rank[face] && network.conductances[edge] > 0;
+      return is_searched[rank[face]] && rank[next] == rank[face] && network.conducts(edge);
     });
     std::vector<char> has_seed(regions.count, 0);
     for (const auto& seed : seeds.seeds()) has_seed[regions.of[seed.face]] = 1;
@@ -90,7 +90,7 @@ class Label_islands {
     Index rank = none;
     for (const Index face : island)
       for (const auto& [next, edge] : network_.graph.neighbours(face)) {
-        if (settled[next] == none || !(network_.conductances[edge] > 0)) continue;
+        if (settled[next] == none || !network_.conducts(edge)) continue;
         const double largest = labels_.largest()[next];
         if (largest > support || (largest == support && settled[next] < rank)) {
           support = largest;

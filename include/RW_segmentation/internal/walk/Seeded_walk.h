@@ -60,7 +60,7 @@ class Seeded_walk {
   Walk_report report() const;
 
  protected:
-  Walk_network network() const { return {*graph_, conductances_, components_}; }
+  Walk_network network() const { return {*graph_, conductances_, components_, all_edges_conduct_}; }
 
   /// Brings the labels to the seeds.
   /// \param label_edited sets labels by what is known of earlier seeds; returns false where that is no use
@@ -80,6 +80,7 @@ class Seeded_walk {
 
   const Dual_graph* graph_;
   std::vector<double> conductances_;
+  bool all_edges_conduct_;
   Components components_;
   Seed_set seeds_;
   Walk_factor factor_;

@@ -16,7 +16,10 @@ namespace RW_segmentation::internal {
 struct Walk_network {
   const Dual_graph& graph;
   const std::vector<double>& conductances;
-  const Components& component;  ///< over edges that conduct
+  const Components& component;     ///< over edges that conduct
+  bool all_edges_conduct = false;  ///< known to: conductances need not be read for it
+
+  bool conducts(Dual_graph::Index edge) const { return all_edges_conduct || conductances[edge] > 0; }
 };
 
 /// Faces whose potentials are worked on together; those of a few labels stay in the cache.
