@@ -23,6 +23,7 @@
 #include <random>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 using namespace networks;
@@ -228,10 +229,15 @@ TEST(StarMeshElimination, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
   const auto potentials_with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Star_mesh_elimination solver;
-    return potentials(solver, network, seeds);
+    Potentials all = potentials(solver, network, seeds);
+    return std::pair(std::move(all), solver.columns());
   };
-  const Potentials expected = potentials_with(1);
-  for (const std::size_t threads : {2u, 4u}) EXPECT_TRUE((potentials_with(threads).array() == expected.array()).all());
+  const auto [expected, expected_columns] = potentials_with(1);
+  for (const std::size_t threads : {2u, 4u}) {
+    const auto [all, columns] = potentials_with(threads);
+    EXPECT_TRUE((all.array() == expected.array()).all());
+    EXPECT_EQ(columns, expected_columns);
+  }
 #else
   GTEST_SKIP() << "TBB is not linked";
 #endif
