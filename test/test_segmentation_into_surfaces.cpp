@@ -263,15 +263,15 @@ TEST(SegmentationIntoSurfaces, FindsFilletsBesidePlanesUnderNoise) {
 }
 
 TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
-  const auto is_independent = [](const solids::Solid& solid) {
+  const auto is_independent = [](const solids::Solid& solid, double percent) {
     const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
     const Dual_mesh_of<meshes::Surface_mesh> dual(mesh);
-    return internal::Noise_estimate(dual, internal::surface_tolerance(dual, -1)).is_independent();
+    return internal::Noise_estimate(dual, internal::surface_tolerance(dual, percent / 100)).is_independent();
   };
   for (const solids::Solid& clean : solids::all(solids::even(0.1)))
-    for (const double noise : {0.1, 0.3}) {
-      EXPECT_TRUE(is_independent(solids::with_noise(clean, noise))) << clean.name;
-      EXPECT_FALSE(is_independent(solids::scanned(clean, noise))) << clean.name;
+    for (const double percent : {0.1, 0.3}) {
+      EXPECT_TRUE(is_independent(solids::with_noise(clean, percent), percent)) << clean.name;
+      EXPECT_FALSE(is_independent(solids::scanned(clean, percent), percent)) << clean.name;
     }
 }
 
@@ -352,12 +352,15 @@ TEST(SegmentationIntoSurfaces, HasNoSegmentOnBothSidesOfAClosedLoopOfConstrained
     hierarchy.segments(Segment_count_stop(hierarchy.number_of_components()), ids);
     EXPECT_TRUE(enclosure.on_both_sides(ids).empty());
   };
+  constexpr double percent = 0.2;
+  Surface_segmentation noisy;
+  noisy.noise = percent / 100;  // told, since estimating it takes most of the time
+  unsigned random_seed = 0;
   for (const solids::Meshing& meshing : {solids::even(0.3), solids::by_kernel()})
-    for (const solids::Solid& solid : solids::all(meshing))
-      for (unsigned random_seed = 1; random_seed <= 2; ++random_seed) {
-        cut(solid, random_seed, {});
-        cut(solids::with_noise(solid, 0.2), random_seed, {});
-      }
+    for (const solids::Solid& solid : solids::all(meshing)) {
+      cut(solid, ++random_seed, {});
+      cut(solids::with_noise(solid, percent), ++random_seed, noisy);
+    }
 }
 
 TEST(SegmentationIntoSurfaces, CutsAPlaneAlongConstrainedEdges) {
@@ -500,10 +503,10 @@ TEST(FaceRefinement, KeepsWallsBetweenTrianglesOfFacesThatHaveOne) {
 // ---- The surfaces of the segments ----
 
 /// The surfaces of a solid's own segments.
-std::vector<Analytic_surface> surfaces_of(const solids::Solid& solid) {
+std::vector<Analytic_surface> surfaces_of(const solids::Solid& solid, double noise = -1) {
   const auto mesh = meshes::surface_mesh(shape_of(solid));
   const auto ids = boost::make_iterator_property_map(solid.label.begin(), get(boost::face_index, mesh));
-  return segment_surfaces(mesh, ids, solid.surfaces.size());
+  return segment_surfaces(mesh, ids, solid.surfaces.size(), noise);
 }
 
 TEST(SegmentSurfaces, AreThoseTheSolidWasMadeOf) {
@@ -553,11 +556,12 @@ TEST(SegmentSurfaces, OfAChamferBetweenAPlaneAndACylinderIsACone) {
 TEST(SegmentSurfaces, HaveStandardErrorsThatNoiseBearsOut) {
   // One number of each type is compared with the design, divided by its error: the squares have a mean of 1.
   constexpr unsigned trials = 15;
+  constexpr double percent = 0.02;
   std::map<Surface_type, double> squares;
   std::map<Surface_type, double> numbers;
   for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.1)), solids::capsule(solids::even(0.1))})
     for (unsigned seed = 1; seed <= trials; ++seed) {
-      const auto surfaces = surfaces_of(solids::with_noise(solid, 0.02, seed));
+      const auto surfaces = surfaces_of(solids::with_noise(solid, percent, seed), percent / 100);
       for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const auto& found = surfaces[s];
         const auto& design = solid.surfaces[s];
