@@ -91,7 +91,7 @@ void for_every_call(const std::function<void(const Callback&)>& work, const std:
   EXPECT_GT(cancelled, 3u);
 }
 
-meshes::Shape two_spheres() { return meshes::two_spheres_with_neck(3, 0.3, 8); }
+meshes::Shape two_spheres() { return meshes::two_spheres_with_neck(3, 0.3, 6); }
 
 struct Faults : testing::Test {
   const Surface_mesh mesh = meshes::surface_mesh(two_spheres());
