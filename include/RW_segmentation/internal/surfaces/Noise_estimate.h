@@ -54,6 +54,7 @@ class Noise_estimate {
       const Face_patches::Patch patch = patches_.neighbourhood(f, many_vertices);
       if (const auto surface = closest_surface_of(patch))
         fits.push_back({surface->residual, correlation(*surface, patch)});
+      return true;
     });
     if (fits.empty()) return false;
     std::sort(fits.begin(), fits.end());
@@ -67,14 +68,23 @@ class Noise_estimate {
   static constexpr std::size_t many_vertices = 30;
   static constexpr double correction = 1.25;  // from the low quantile of the best of five fits
 
-  /// Whether some small neighbourhoods lie on a surface.
+  /// Whether some small neighbourhoods lie on a surface: known as soon as enough of them do.
   bool is_exact() {
     constexpr std::size_t few_vertices = 12;
     constexpr double part = 0.02;
-    constexpr double correction = 2.5;  // likewise
-    const double round = quantile(part, [&](Index f) { return patches_.neighbourhood(f, few_vertices); });
-    const double flat = quantile(part, [&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
-    return correction * std::min(round, flat) <= Surface_tolerance::cad_exactness;
+    const auto are_some_exact = [&](const auto& neighbourhood_of) {
+      constexpr double correction = 2.5;  // likewise
+      std::size_t measured = 0, exact = 0;
+      for_each_trial([&](Index f) {
+        const auto surface = closest_surface_of(neighbourhood_of(f));
+        measured += surface.has_value();
+        exact += surface && correction * surface->residual <= Surface_tolerance::cad_exactness;
+        return static_cast<double>(exact) <= part * static_cast<double>(number_of_trials());
+      });
+      return measured == 0 || static_cast<double>(exact) > part * static_cast<double>(measured);
+    };
+    return are_some_exact([&](Index f) { return patches_.neighbourhood(f, few_vertices); }) ||
+           are_some_exact([&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
   }
 
   /// Of neighbourhoods of so many vertices.
@@ -110,6 +120,7 @@ class Noise_estimate {
     std::vector<double> deviations;
     for_each_trial([&](Index f) {
       if (const auto surface = closest_surface_of(neighbourhood_of(f))) deviations.push_back(surface->residual);
+      return true;
     });
     if (deviations.empty()) return 0;
     const auto place = deviations.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(deviations.size()));
@@ -117,12 +128,16 @@ class Noise_estimate {
     return *place;
   }
 
-  /// Calls a function with some faces.
+  /// Calls a function with some faces, evenly in their order, as long as it returns true.
   template <class Function>
   void for_each_trial(const Function& function) {
-    constexpr std::size_t trials = 400;  // up to twice as many faces, evenly in their order
-    for (std::size_t f = 0; f < number_of_faces_; f += std::max<std::size_t>(1, number_of_faces_ / trials))
-      function(static_cast<Index>(f));
+    for (std::size_t f = 0; f < number_of_faces_; f += trial_step())
+      if (!function(static_cast<Index>(f))) return;
+  }
+  std::size_t number_of_trials() const { return (number_of_faces_ + trial_step() - 1) / trial_step(); }
+  std::size_t trial_step() const {
+    constexpr std::size_t trials = 400;  // up to twice as many
+    return std::max<std::size_t>(1, number_of_faces_ / trials);
   }
 
   /// The surface that is closest to the vertices of a patch, with the deviation of these as its residual; none if there
