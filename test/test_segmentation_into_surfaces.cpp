@@ -2,8 +2,8 @@
 
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
-#include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>
+#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 
@@ -71,9 +71,9 @@ std::size_t number_of_pieces(const meshes::Surface_mesh& mesh, const Labels& lab
 }
 
 /// Segments of a solid, each of which must hang together.
-Labels segments_of(const solids::Solid& solid) {
+Labels segments_of(const solids::Solid& solid, const Surface_segmentation& numbers = {}) {
   const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
-  Labels labels = segments_of(mesh);
+  Labels labels = segments_of(mesh, numbers);
   EXPECT_EQ(number_of_pieces(mesh, labels), number_of(labels)) << solid.name;
   return labels;
 }
@@ -227,12 +227,20 @@ TEST(SegmentationIntoSurfaces, CutsAFreeFormAlongCreasesThatEndInIt) {
   }
 }
 
+/// Whoever knows the noise saves its estimate, which on small meshes takes most of the time.
+Surface_segmentation with_noise_of(double percent) {
+  Surface_segmentation numbers;
+  numbers.noise = percent / 100;
+  return numbers;
+}
+
 TEST(SegmentationIntoSurfaces, FindsMostFacesUnderNoise) {
-  for (const solids::Meshing& meshing : {solids::even(0.1), solids::by_kernel()}) {
+  constexpr double percent = 0.1;
+  for (const solids::Meshing& meshing : {solids::even(0.15), solids::by_kernel()}) {
     double error = 0, found = 0, faces = 0, solids = 0;
     for (const solids::Solid& clean : solids::all(meshing)) {
-      const solids::Solid solid = solids::with_noise(clean, 0.1);
-      const Labels segments = segments_of(solid);
+      const solids::Solid solid = solids::with_noise(clean, percent);
+      const Labels segments = segments_of(solid, with_noise_of(percent));
       error += rand_error(segments, solid.label);
       ++solids;
       for (const double overlap : best_overlaps(solid, segments)) {
@@ -266,7 +274,7 @@ TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
   const auto is_independent = [](const solids::Solid& solid, double percent) {
     const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
     const Dual_mesh_of<meshes::Surface_mesh> dual(mesh);
-    return internal::Noise_estimate(dual, internal::surface_tolerance(dual, percent / 100)).is_independent();
+    return internal::has_independent_noise(dual, internal::surface_tolerance(dual, percent / 100));
   };
   for (const solids::Solid& clean : solids::all(solids::even(0.1)))
     for (const double percent : {0.1, 0.3}) {
@@ -353,13 +361,11 @@ TEST(SegmentationIntoSurfaces, HasNoSegmentOnBothSidesOfAClosedLoopOfConstrained
     EXPECT_TRUE(enclosure.on_both_sides(ids).empty());
   };
   constexpr double percent = 0.2;
-  Surface_segmentation noisy;
-  noisy.noise = percent / 100;  // told, since estimating it takes most of the time
   unsigned random_seed = 0;
   for (const solids::Meshing& meshing : {solids::even(0.3), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       cut(solid, ++random_seed, {});
-      cut(solids::with_noise(solid, percent), ++random_seed, noisy);
+      cut(solids::with_noise(solid, percent), ++random_seed, with_noise_of(percent));
     }
 }
 

@@ -37,6 +37,10 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   return tolerance;
 }
 
+RW_SEGMENTATION_INLINE bool has_independent_noise(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
+  return tolerance.is_noisy() && Noise_estimate(mesh, tolerance).is_independent();
+}
+
 RW_SEGMENTATION_INLINE std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
   std::vector<double> sharpness = edge_angles(mesh);
   for (Dual_mesh::Index e = 0; e < sharpness.size(); ++e)

@@ -229,7 +229,8 @@ RW_SEGMENTATION_ALWAYS_INLINE void eliminate(const Front& front) {
 RW_SEGMENTATION_ALWAYS_INLINE void prefetch_earlier([[maybe_unused]] const double* p) {
 #if defined(__GNUC__) || defined(__clang__)
   constexpr std::uintptr_t distance = 8192;  // bytes; benchmark_seed_editing: 4096 to 12288 do as well
-  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(p) - distance));
+  const auto address = reinterpret_cast<std::uintptr_t>(p) - distance;
+  __builtin_prefetch(reinterpret_cast<const void*>(address));  // NOLINT(performance-no-int-to-ptr): maybe of no object
 #endif
 }
 

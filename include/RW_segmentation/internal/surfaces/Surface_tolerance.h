@@ -118,6 +118,9 @@ void require_noise(double noise);
 /// \throws std::invalid_argument if the noise is not finite
 Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise);
 
+/// Whether a mesh has noise and that of a vertex is independent of its neighbours'.
+bool has_independent_noise(const Dual_mesh& mesh, const Surface_tolerance& tolerance);
+
 }  // namespace RW_segmentation::internal
 
 #endif
