@@ -29,7 +29,7 @@ class Column_substitution {
   using Index = Dual_graph::Index;
 
   explicit Column_substitution(const Factor_view& factor)
-      : factor_(factor), currents_(factor, labels_of(factor)), columns_(factor.absorbing_faces.size()) {
+      : factor_(factor), currents_(factor_, labels_of(factor)), columns_(factor.absorbing_faces.size()) {
     const Elimination_plan& plan = factor_.plan;
     for (auto& column : columns_) column.resize(plan.face.size());
     Workspaces<Workspace, Concurrency_tag> workspaces([&] { return Workspace(plan); });

@@ -33,6 +33,7 @@ class Label_currents {
   using Index = Dual_graph::Index;
   static constexpr Index none = Elimination_plan::none;
 
+  /// Keeps a reference to the factor.
   /// \param labels by absorbing face
   Label_currents(const Factor_view& factor, const std::vector<Index>& labels) : factor_(factor) {
     collect_labels(labels);

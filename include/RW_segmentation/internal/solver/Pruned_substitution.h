@@ -42,7 +42,7 @@ class Pruned_substitution {
       : label_(factor.plan.face.size(), 0),
         potential_(factor.plan.face.size(), std::numeric_limits<double>::quiet_NaN()),
         factor_(factor),
-        currents_(factor, labels),
+        currents_(factor_, labels),
         least_of_winner_((1 - rounding) / static_cast<double>(number_of_labels)) {
     find_first_descendants();
     solve_top();
