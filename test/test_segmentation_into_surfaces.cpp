@@ -227,7 +227,7 @@ TEST(SegmentationIntoSurfaces, CutsAFreeFormAlongCreasesThatEndInIt) {
   }
 }
 
-/// Whoever knows the noise saves its estimate, which on small meshes takes most of the time.
+/// For tests of something else than the estimate of noise, which takes half of the time on the smallest solids.
 Surface_segmentation with_noise_of(double percent) {
   Surface_segmentation numbers;
   numbers.noise = percent / 100;
