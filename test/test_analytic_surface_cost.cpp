@@ -151,6 +151,15 @@ TEST(SurfaceTolerance, EstimatesMostOfNoiseThatIsAlikeFromVertexToVertex) {
   }
 }
 
+TEST(SurfaceTolerance, EstimatesMostOfTheNoiseOfDiscsWhoseVerticesAreARing) {
+  constexpr double percent = 0.1;
+  const solids::Solid clean = solids::cone_on_cylinder(solids::by_kernel());
+  for (unsigned seed = 1; seed <= 8; ++seed) {  // with some of them tori about the ring leave half of the noise
+    const Surface_mesh mesh = meshes::surface_mesh(shape_of(solids::with_noise(clean, percent, seed)));
+    EXPECT_GE(100 / percent * internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, 0.75) << seed;
+  }
+}
+
 TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
   for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
     const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));

@@ -140,8 +140,8 @@ class Noise_estimate {
     return std::max<std::size_t>(1, number_of_faces_ / trials);
   }
 
-  /// The surface that is closest to the vertices of a patch, with the deviation of these as its residual; none if there
-  /// are too few.
+  /// The surface that is closest to the vertices of a patch and turns as its faces do, with the deviation of these vertices
+  /// as its residual; none if there are too few. The first, a plane as a rule, need not turn so.
   std::optional<Analytic_surface> closest_surface_of(const Face_patches::Patch& patch) {
     constexpr double least_surplus = 4;  // vertices beyond those that determine a surface
     const Surface_samples& samples = patches_.samples_of(patch);
@@ -154,9 +154,18 @@ class Noise_estimate {
       auto surface = fit.fit(type);
       if (!surface || !std::isfinite(surface->residual)) continue;
       surface->residual *= std::sqrt(points / surplus);
-      if (!closest || surface->residual < closest->residual) closest = surface;
+      if (!closest || (surface->residual < closest->residual && turns_alike(*surface, samples))) closest = surface;
     }
     return closest;
+  }
+
+  /// Whether normals have more to do with those of a surface than if they were by chance. The vertices of a disc, as kernels
+  /// mesh it, are a ring: a torus about it with a tube as thin as the noise leaves half of this, at right angles to the faces.
+  static bool turns_alike(const Analytic_surface& surface, const Surface_samples& samples) {
+    constexpr double errors = 2;  // standard ones of the mean cosine of directions by chance, each 1 / sqrt(3 n)
+    const auto normals = static_cast<double>(samples.normals.size());
+    const double mean_cosine = 1 - squared_turns(surface, samples) / (2 * normals);
+    return mean_cosine > errors / std::sqrt(3 * normals);
   }
 
   /// Of the distances of both ends of an edge in a patch from a surface.
