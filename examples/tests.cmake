@@ -152,7 +152,7 @@ if(TARGET segment_mesh AND data_dir)
 endif()
 
 # The tool's own tests run the tool.
-foreach(test test_segment_mesh_tool test_segment_mesh_input test_capped_parts test_cad_files test_tiles_tool)
+foreach(test tests test_segment_mesh_tool test_segment_mesh_input test_capped_parts test_cad_files test_tiles_tool)
   if(TARGET ${test} AND TARGET segment_mesh)
     add_dependencies(${test} segment_mesh)
     target_compile_definitions(${test} PRIVATE SEGMENT_MESH="$<TARGET_FILE:segment_mesh>"

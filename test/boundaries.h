@@ -32,11 +32,11 @@ using Labels = std::vector<std::size_t>;  // in the order of the faces of a shap
 
 /// Labels of faces, those that will be added, too.
 template <class Mesh>
-class Face_labels {
+class Growing_face_labels {
  public:
   using face_descriptor = typename boost::graph_traits<Mesh>::face_descriptor;
 
-  Face_labels(const Mesh& mesh, const Labels& labels) {
+  Growing_face_labels(const Mesh& mesh, const Labels& labels) {
     std::size_t i = 0;
     for (const face_descriptor f : faces(mesh)) label_[f] = labels[i++];
   }

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_analytic_surface {
+
 using namespace RW_segmentation;
 using Eigen::Vector3d;
 
@@ -283,3 +285,5 @@ TEST(Solids, HaveTheirVerticesOnTheirSurfaces) {
         for (const std::size_t v : solid.faces[f])
           ASSERT_LT(solid.surfaces[solid.label[f]].distance(solid.points[v]), 1e-12) << solid.name;
 }
+
+}  // namespace test_analytic_surface

@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_analytic_surface_cost {
+
 using namespace RW_segmentation;
 using meshes::Surface_mesh;
 
@@ -166,3 +168,5 @@ TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
     EXPECT_EQ(internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, 0) << solid.name;
   }
 }
+
+}  // namespace test_analytic_surface_cost

@@ -23,6 +23,8 @@ TEST(Cad_files, AreWritten) { GTEST_SKIP() << "the tool is not built"; }
 #include <string>
 #include <vector>
 
+namespace test_cad_files {
+
 namespace {
 
 using namespace segment_mesh_tool;
@@ -138,5 +140,7 @@ TEST_F(Cad_files, AreRefusedInOneSentenceWithoutOpenCascade) {
 }
 
 #endif
+
+}  // namespace test_cad_files
 
 #endif

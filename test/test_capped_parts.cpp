@@ -26,6 +26,8 @@ TEST(Capped_parts, AreSolids) { GTEST_SKIP() << "the tool is not built"; }
 #include <utility>
 #include <vector>
 
+namespace test_capped_parts {
+
 namespace {
 
 using namespace segment_mesh_tool;
@@ -288,5 +290,7 @@ TEST_F(Capped_parts, NeedParts) {
   write("mesh.off", cube_of_separate_squares(1));
   expect_failure(1, "--cap-parts: there are no parts", {"mesh.off", "--cap-parts"});
 }
+
+}  // namespace test_capped_parts
 
 #endif

@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_coarse_seeds {
+
 namespace {
 
 using namespace RW_segmentation;
@@ -510,3 +512,5 @@ TEST(Coarse_seeds, ReadTheUsersPoints) {
 }
 
 }  // namespace
+
+}  // namespace test_coarse_seeds

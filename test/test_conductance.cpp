@@ -29,6 +29,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace test_conductance {
+
 namespace {
 
 using meshes::Mesh_graph;
@@ -268,3 +270,5 @@ TEST(Conductance, ReadsTheGivenPoints) {
 }
 
 }  // namespace
+
+}  // namespace test_conductance

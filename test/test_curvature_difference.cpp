@@ -24,6 +24,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace test_curvature_difference {
+
 namespace {
 
 using namespace RW_segmentation;
@@ -301,3 +303,5 @@ TEST(Curvature_difference, IsAReadableMapThatCopiesShare) {
 }
 
 }  // namespace
+
+}  // namespace test_curvature_difference

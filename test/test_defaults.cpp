@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_defaults {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -138,3 +140,5 @@ TEST(Defaults, AreThoseThatTheManualTells) {
   expect(curves, "largest_displacement", boundaries.largest_displacement);
   expect(curves, "steps", boundaries.steps);
 }
+
+}  // namespace test_defaults

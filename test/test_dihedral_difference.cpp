@@ -31,6 +31,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace test_dihedral_difference {
+
 namespace {
 
 using meshes::Mesh_graph;
@@ -340,3 +342,5 @@ TEST(Dihedral_difference, IsAReadableMapThatCopiesShare) {
 }
 
 }  // namespace
+
+}  // namespace test_dihedral_difference

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_divided_triangle {
+
 using RW_segmentation::internal::Divided_triangle;
 using Chord = Divided_triangle::Chord;
 
@@ -170,3 +172,5 @@ TEST(DividedTriangle, HasNoHeightWhereChordsCross) {
   }
   EXPECT_GT(crossings, 20u);
 }
+
+}  // namespace test_divided_triangle

@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_dual_graph {
+
 using RW_segmentation::Dual_graph;
 using RW_segmentation::Dual_mesh_of;
 using Index = Dual_graph::Index;
@@ -118,3 +120,5 @@ TEST(Dual_graph, OfAMeshNumbersNeighboursCloseByWhateverTheOrderOfTheMesh) {
     EXPECT_EQ(dual.place(dual.index(f)), place++);
   }
 }
+
+}  // namespace test_dual_graph

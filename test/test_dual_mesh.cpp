@@ -43,6 +43,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_dual_mesh {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -743,3 +745,5 @@ TEST(ByHand, GivesTheLabelsOfTheOneCallOnDataMeshes) {
     EXPECT_EQ(automatic_by_hand(*mesh, defaults), automatic_in_one_call(*mesh, defaults)) << name;
   }
 }
+
+}  // namespace test_dual_mesh

@@ -14,6 +14,8 @@
 #include <set>
 #include <vector>
 
+namespace test_elimination_plan {
+
 using RW_segmentation::Dual_graph;
 using RW_segmentation::internal::Elimination_plan;
 using Index = Dual_graph::Index;
@@ -124,3 +126,5 @@ TEST(EliminationPlan, PutsSubtreesInRangesAndKeepsRoomForWhatTheyLeave) {
     EXPECT_EQ(holders, std::vector<int>(holders.size(), 1));
   }
 }
+
+}  // namespace test_elimination_plan

@@ -171,7 +171,7 @@ TEST_F(Faults, BoundariesThatRunOutOfMemoryLeaveAValidMesh) {
         const long left = allocations_left;
         allocations_left = never;  // for the copy that is worked on
         cut = mesh;
-        boundaries::Face_labels<Surface_mesh> copied(cut, cells);
+        boundaries::Growing_face_labels<Surface_mesh> copied(cut, cells);
         allocations_left = left;
         const auto curves = smooth_boundaries(cut, copied.map());
         split_along_boundaries(cut, curves, copied.map());
@@ -191,7 +191,7 @@ TEST_F(Faults, CancellingAtAnyCallWritesNothing) {
 }
 
 TEST_F(Faults, CancellingBoundariesAtAnyCallIsHeard) {
-  const boundaries::Face_labels<Surface_mesh> segments(mesh, boundaries::random_cells(two_spheres(), 4));
+  const boundaries::Growing_face_labels<Surface_mesh> segments(mesh, boundaries::random_cells(two_spheres(), 4));
   auto copy = segments;
   for_every_call(
       [&](const Callback& callback) {

@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_feature_sensitive_seeds {
+
 namespace {
 
 using namespace RW_segmentation;
@@ -514,3 +516,5 @@ TEST(Feature_sensitive_seeds_refuse, ACoordinateThatIsNotFinite) {
 }
 
 }  // namespace
+
+}  // namespace test_feature_sensitive_seeds

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_front_kernels {
+
 using namespace RW_segmentation::internal;
 
 namespace {
@@ -225,3 +227,5 @@ TEST(FrontKernels, SelectTheLargestPotentialAndTheFirstOfEqualOnes) {
     }
   }
 }
+
+}  // namespace test_front_kernels

@@ -24,6 +24,8 @@
 #include <string>
 #include <vector>
 
+namespace test_index_limits {
+
 using meshes::Surface_mesh;
 
 namespace {
@@ -40,21 +42,25 @@ std::size_t num_vertices(const Boasting_mesh& mesh) { return mesh.number_of_vert
 
 }  // namespace
 
+}  // namespace test_index_limits
+
 namespace boost {
 
 template <>
-struct graph_traits<Boasting_mesh> : graph_traits<Surface_mesh> {};
+struct graph_traits<test_index_limits::Boasting_mesh> : graph_traits<meshes::Surface_mesh> {};
 template <class Tag>
-struct property_map<Boasting_mesh, Tag> : property_map<Surface_mesh, Tag> {};
+struct property_map<test_index_limits::Boasting_mesh, Tag> : property_map<meshes::Surface_mesh, Tag> {};
 
 }  // namespace boost
 
 namespace CGAL {
 
 template <class Tag>
-struct graph_has_property<Boasting_mesh, Tag> : graph_has_property<meshes::Surface_mesh, Tag> {};
+struct graph_has_property<test_index_limits::Boasting_mesh, Tag> : graph_has_property<meshes::Surface_mesh, Tag> {};
 
 }  // namespace CGAL
+
+namespace test_index_limits {
 
 namespace {
 
@@ -116,3 +122,5 @@ TEST_F(Index_limits, TheOrderingOfTheEliminationHasALimitOfItsOwn) {
   EXPECT_EQ(refusal([] { Plan::check_size(270000000, 405000000); }),
             "Star_mesh_elimination: 270000000 faces are too many for the minimum degree ordering");
 }
+
+}  // namespace test_index_limits

@@ -25,6 +25,8 @@
 #include <string>
 #include <vector>
 
+namespace test_integral_invariant_curvatures {
+
 namespace {
 
 using namespace RW_segmentation;
@@ -602,3 +604,5 @@ TEST(Integral_invariant_curvatures, CanBeCancelledAndWriteNothingThen) {
 }
 
 }  // namespace
+
+}  // namespace test_integral_invariant_curvatures

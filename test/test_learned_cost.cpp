@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_learned_cost {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -304,3 +306,5 @@ TEST(LearnedCost, TakesAStoredThicknessInTheMeshsUnit) {
     for (std::size_t i = 0; i < merges.size(); ++i) EXPECT_NEAR(merges[i].cost, stored[i].cost, 1e-9);
   }
 }
+
+}  // namespace test_learned_cost

@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+namespace test_lifted_surface {
+
 using namespace RW_segmentation::internal;
 using Index = Triangle_surface::Index;
 using Point = Lifted_surface::Point;
@@ -94,3 +96,5 @@ TEST(LiftedSurface, WalksToTheClosestPointOfAConvexSurface) {
     EXPECT_LE(found, 0.2 * radius * 1.05);  // that of the sphere, and a little for what triangles cut off
   }
 }
+
+}  // namespace test_lifted_surface

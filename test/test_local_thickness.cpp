@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_local_thickness {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -400,3 +402,5 @@ TEST(LocalThickness, OfAFaceThatOverlapsItselfIsNotKnown) {
   bow_tie.faces = {{0, 1, 2, 3}};
   EXPECT_EQ(measured(bow_tie).thickness, std::vector<double>{0});
 }
+
+}  // namespace test_local_thickness

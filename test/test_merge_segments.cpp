@@ -30,6 +30,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_merge_segments {
+
 using namespace RW_segmentation;
 using meshes::Mesh_graph;
 
@@ -589,3 +591,5 @@ TEST(StopPredicates, MayBeTheUsersOwn) {
   EXPECT_EQ(hierarchy.segments(half, ids.map()), 20u);
   EXPECT_EQ(number_of_labels(ids.values()), 20u);
 }
+
+}  // namespace test_merge_segments

@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_mesh_dialects {
+
 namespace {
 
 using namespace mesh_bytes;
@@ -530,3 +532,5 @@ TEST(Mesh_dialects, CornersOfStlAreNumberedInTheOrderInWhichTheyFirstCome) {
   }
   EXPECT_TRUE(outcome_of([&] { return mesh_files::read_stl("m", content); }) == outcome_of([&] { return soup; }));
 }
+
+}  // namespace test_mesh_dialects

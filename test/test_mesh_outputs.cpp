@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_mesh_outputs {
+
 namespace {
 
 using mesh_files::Polygon_soup;
@@ -127,3 +129,5 @@ TEST(Mesh_outputs, CoordinatesTooLargeForAFormatAreRefused) {
   EXPECT_THROW(mesh_files::write_binary_stl(file, mesh), mesh_files::Unwritable_file);
   EXPECT_THROW(mesh_files::write_glb(file, mesh), mesh_files::Unwritable_file);
 }
+
+}  // namespace test_mesh_outputs

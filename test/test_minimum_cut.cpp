@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+namespace test_minimum_cut {
+
 using RW_segmentation::internal::Minimum_cut;
 
 namespace {
@@ -104,3 +106,5 @@ TEST(MinimumCut, LeavesNodesThatCostTheSameOnBothSidesOnNeither) {
   EXPECT_FALSE(cut.is_on_first(0) || cut.is_on_second(0) || cut.is_on_first(1) || cut.is_on_second(1));
   EXPECT_TRUE(cut.is_on_first(2));
 }
+
+}  // namespace test_minimum_cut

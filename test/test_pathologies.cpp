@@ -34,6 +34,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_pathologies {
+
 using namespace RW_segmentation;
 using meshes::Shape;
 using meshes::Surface_mesh;
@@ -1036,3 +1038,5 @@ TEST(Pathologies, LabelsMayBeNegativeFarApartOrBool) {
   EXPECT_EQ(walk.segment(labels.map()), 2u);
   for (const auto& [f, label] : seeds) EXPECT_EQ(labels[f], label);
 }
+
+}  // namespace test_pathologies

@@ -34,6 +34,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_policies {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -732,3 +734,5 @@ TEST(ConcurrencyTag, DoesNotChangeTheResult) {
     EXPECT_EQ(ids.values(), expected);
   }
 }
+
+}  // namespace test_policies

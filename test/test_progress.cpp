@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_progress {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -51,3 +53,5 @@ TEST(Progress, MayBeToldToNobody) {
   EXPECT_NO_THROW(Progress()(1));
   EXPECT_NO_THROW(Progress(std::function<bool(double)>()).part(0, 0.5)(1));
 }
+
+}  // namespace test_progress

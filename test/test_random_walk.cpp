@@ -27,6 +27,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace test_random_walk {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -743,3 +745,5 @@ TEST(Islands, AreTheSameAfterEditsAsInAWalkMadeAnew) {
   }
   EXPECT_GT(walks_with_islands, 5u);
 }
+
+}  // namespace test_random_walk

@@ -21,6 +21,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_regular_surfaces {
+
 using namespace RW_segmentation;
 using Eigen::Vector3d;
 using Surfaces = std::vector<Analytic_surface>;
@@ -204,3 +206,5 @@ TEST(RegularSurfaces, RefuseTolerancesThatAreNone) {
   EXPECT_THROW(regular_surfaces({}, {0, std::numeric_limits<double>::infinity(), 0}), std::invalid_argument);
   EXPECT_TRUE(regular_surfaces({}).surfaces.empty());
 }
+
+}  // namespace test_regular_surfaces

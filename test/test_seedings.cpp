@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_seedings {
+
 using namespace RW_segmentation;
 using internal::Seeding_agreement;
 
@@ -289,3 +291,5 @@ TEST(Seedings, LeaveNoSmallPieceOfAFragment) {
   for (const auto& [piece, fragment] : fragment_of)
     EXPECT_TRUE(area_of_piece[piece] >= least || area_of_piece[piece] >= area_of_fragment[fragment] * (1 - 1e-9));
 }
+
+}  // namespace test_seedings

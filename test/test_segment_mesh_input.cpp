@@ -20,6 +20,8 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 #include <csignal>
 #include <thread>
 
+namespace test_segment_mesh_input {
+
 namespace {
 
 using namespace segment_mesh_tool;
@@ -272,5 +274,7 @@ TEST_F(Segment_mesh_shell, APipeThatNobodyReadsIsAnOutputThatCannotBeWritten) {
 }
 
 }  // namespace
+
+}  // namespace test_segment_mesh_input
 
 #endif

@@ -42,6 +42,8 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 #include <utility>
 #include <vector>
 
+namespace test_segment_mesh_tool {
+
 namespace {
 
 using namespace segment_mesh_tool;
@@ -1265,5 +1267,7 @@ TEST_F(Segment_mesh_tool, HelpAndVersionGoToStandardOutput) {
 }
 
 }  // namespace
+
+}  // namespace test_segment_mesh_tool
 
 #endif

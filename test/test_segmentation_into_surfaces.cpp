@@ -28,6 +28,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_segmentation_into_surfaces {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -660,3 +662,5 @@ TEST(SegmentationIntoSurfaces, TheCallbackSeesProgressAndCancels) {
   EXPECT_GE(seen.front(), 0);
   EXPECT_EQ(seen.back(), 1);
 }
+
+}  // namespace test_segmentation_into_surfaces

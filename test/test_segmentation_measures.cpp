@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+namespace test_segmentation_measures {
+
 using namespace segmentation_measures;
 
 namespace {
@@ -108,3 +110,5 @@ TEST(SegmentationMeasures, ModeIsTheMostFrequentNumberNearestTheMedian) {
   EXPECT_EQ(mode_nearest_median({2, 2, 5, 6, 6}), 6u) << "median 5";
   EXPECT_EQ(mode_nearest_median({2, 2, 3, 6, 6}), 2u) << "median 3";
 }
+
+}  // namespace test_segmentation_measures

@@ -19,6 +19,8 @@
 #include <unordered_map>
 #include <vector>
 
+namespace test_segmentation_via_random_walks {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -298,3 +300,5 @@ TEST(AutomaticPathologies, OfNoFacesNothingIsReported) {
   EXPECT_EQ(report.degenerate_faces + report.island_faces, 0u);
   EXPECT_FALSE(report.has_heavy_noise);
 }
+
+}  // namespace test_segmentation_via_random_walks

@@ -38,6 +38,8 @@
 #include <iterator>
 #include <vector>
 
+namespace test_sequential_tag {
+
 using namespace RW_segmentation;
 using meshes::Surface_mesh;
 
@@ -176,5 +178,7 @@ TEST(SequentialTag, KeepsStepsOfTilesToTheCallingThread) {
            fragments_of_tile<One>({place, shaped.shape, clusters, {}, {}, seeds, walk}, regions, progress));
   observed("hierarchy_of_tiles", hierarchy_of_tiles<One>(tiles, options, progress));
 }
+
+}  // namespace test_sequential_tag
 
 #endif

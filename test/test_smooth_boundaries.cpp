@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_smooth_boundaries {
+
 using namespace RW_segmentation;
 using namespace boundaries;
 
@@ -32,7 +34,7 @@ using meshes::Surface_mesh;
 
 std::vector<Boundary_curve<Surface_mesh>> curves_of(const Surface_mesh& mesh, const Labels& labels,
                                                     const Boundary_smoothing& smoothing = {}) {
-  Face_labels<Surface_mesh> ids(mesh, labels);
+  Growing_face_labels<Surface_mesh> ids(mesh, labels);
   return smooth_boundaries(mesh, ids.map(), smoothing);
 }
 
@@ -278,7 +280,7 @@ struct Walled {
 
   template <class Joining = Traced_joining>
   std::vector<Boundary_curve<Surface_mesh>> curves(const Labels& labels, const Joining& joining = {}) {
-    Face_labels<Surface_mesh> ids(mesh, labels);
+    Growing_face_labels<Surface_mesh> ids(mesh, labels);
     return smooth_boundaries(mesh, ids.map(), {}, joining,
                              CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walls)));
   }
@@ -345,7 +347,7 @@ TEST(SmoothBoundaries, WallsFarFromBoundariesChangeNothing) {
     return labels_by_place(shape, [&](const Eigen::Vector3d& p) { return std::size_t(p.z() > height); });
   };
   Edge_marks walls = edges_between(mesh, above(-0.6));
-  Face_labels<Surface_mesh> ids(mesh, above(0.3));
+  Growing_face_labels<Surface_mesh> ids(mesh, above(0.3));
   const auto np = CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walls));
   Boundary_smoothing own_normals;
   own_normals.normals.radius = 0;
@@ -358,7 +360,7 @@ TEST(SmoothBoundaries, WallsFarFromBoundariesChangeNothing) {
 TEST(SmoothBoundaries, ADualMeshHasItsWallsAndPoints) {
   Walled walled(bumpy_torus(), 3);
   const Labels labels = products(walled.sides, random_cells(walled.shape, 6));
-  Face_labels<Surface_mesh> ids(walled.mesh, labels);
+  Growing_face_labels<Surface_mesh> ids(walled.mesh, labels);
   const Dual_mesh_of dual(walled.mesh,
                           CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(walled.walls)));
   const auto curves = smooth_boundaries(dual, ids.map()), expected = walled.curves(labels);
@@ -377,7 +379,7 @@ TEST(SmoothBoundaries, PointsAreThoseOfTheGivenMap) {
   using Wide_point = CGAL::Simple_cartesian<long double>::Point_3;
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+  Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
   const auto doubled = boost::make_function_property_map<Surface_mesh::Vertex_index>(
       [&](auto v) { return Wide_point(2 * mesh.point(v).x(), 2 * mesh.point(v).y(), 2 * mesh.point(v).z()); });
   const auto np = CGAL::parameters::vertex_point_map(doubled);
@@ -439,7 +441,7 @@ TEST(SmoothBoundaries, GeodesicsAreNoLongerThanTracedLines) {
   for (const double noise : {0.02, 0.1, 0.3}) {
     const Shape shape = meshes::with_noise(meshes::torus(2, 1, 28, 16), noise);
     const Surface_mesh mesh = meshes::surface_mesh(shape);
-    Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 12));
+    Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 12));
     const auto report = sum_of_reports(smooth_boundaries(mesh, ids.map(), {}, compare));
     EXPECT_LE(report.failures, report.joints / 50);
     EXPECT_GT(report.joints, 50u);
@@ -468,7 +470,7 @@ TEST(SmoothBoundaries, GeodesicsAreStraightWhereTheSurfaceIsLaidOutFlat) {
     };
     Boundary_smoothing smoothing;
     smoothing.crease_angle = meshes::pi;
-    Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+    Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
     smooth_boundaries(mesh, ids.map(), smoothing, compare);
     EXPECT_GT(joints, 20u);
   }
@@ -477,7 +479,7 @@ TEST(SmoothBoundaries, GeodesicsAreStraightWhereTheSurfaceIsLaidOutFlat) {
 TEST(SmoothBoundaries, AJoiningThatFailsIsCountedAndTraced) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 9));
+  Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 9));
   const auto traced = smooth_boundaries(mesh, ids.map());
   const auto failed = smooth_boundaries(mesh, ids.map(), {},
                                         [](const Curve_joint&) { return std::optional<std::vector<Curve_node>>(); });
@@ -492,7 +494,7 @@ TEST(SmoothBoundaries, AJoiningThatFailsIsCountedAndTraced) {
 TEST(SmoothBoundaries, NamedParametersMayFollowAnyArgument) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
+  Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 5));
   const auto points = CGAL::parameters::vertex_point_map(mesh.points());
   const auto expected = smooth_boundaries(mesh, ids.map());
   for (const auto& curves :
@@ -567,7 +569,7 @@ TYPED_TEST(SmoothBoundariesOn, EveryKindOfMeshGivesTheSame) {
   const Labels labels = random_cells(shape, 8);
   const auto expected = curves_of(meshes::surface_mesh(shape), labels);
   const TypeParam held(shape);
-  Face_labels<typename TypeParam::Mesh> ids(held.mesh, labels);
+  Growing_face_labels<typename TypeParam::Mesh> ids(held.mesh, labels);
   const auto curves = smooth_boundaries(held.mesh, ids.map());
   ASSERT_EQ(curves.size(), expected.size());
   for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -621,7 +623,9 @@ TEST(SmoothBoundaries, NumbersOutOfRangeAreRefused) {
 TEST(SmoothBoundaries, CallbackCancels) {
   const Shape shape = bumpy_torus();
   const Surface_mesh mesh = meshes::surface_mesh(shape);
-  Face_labels<Surface_mesh> ids(mesh, random_cells(shape, 8));
+  Growing_face_labels<Surface_mesh> ids(mesh, random_cells(shape, 8));
   const std::function<bool(double)> stop = [](double done) { return done < 0.6; };
   EXPECT_THROW(smooth_boundaries(mesh, ids.map(), Boundary_smoothing(), CGAL::parameters::callback(stop)), Cancelled);
 }
+
+}  // namespace test_smooth_boundaries

@@ -32,6 +32,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_smoothed_face_normals {
+
 namespace {
 
 using RW_segmentation::Dual_mesh_of;
@@ -557,3 +559,5 @@ TEST(Smoothed_face_normals, AreWrittenAsVectorsOfTheKernel) {
 }
 
 }  // namespace
+
+}  // namespace test_smoothed_face_normals

@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_split_along_boundaries {
+
 using namespace RW_segmentation;
 using namespace boundaries;
 
@@ -36,7 +38,7 @@ Shape bumpy_torus() { return meshes::with_noise(meshes::torus(2, 1, 40, 24), 0.0
 /// \param np of `smooth_boundaries()`
 template <class Mesh, class Joining = Traced_joining,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
-Split_report refine(Mesh& mesh, Face_labels<Mesh>& labels, const Joining& joining = {},
+Split_report refine(Mesh& mesh, Growing_face_labels<Mesh>& labels, const Joining& joining = {},
                     const NamedParameters& np = CGAL::parameters::default_values()) {
   const Surface_measures before = measures(mesh, labels);
   const double edge = mean_edge_length(mesh);
@@ -65,7 +67,7 @@ Split_report refine(Mesh& mesh, Face_labels<Mesh>& labels, const Joining& joinin
 }
 
 /// Everything that can be seen of a mesh with segments.
-std::string description(const Surface_mesh& mesh, Face_labels<Surface_mesh>& labels) {
+std::string description(const Surface_mesh& mesh, Growing_face_labels<Surface_mesh>& labels) {
   std::ostringstream text;
   text.precision(17);
   text << mesh;
@@ -74,7 +76,7 @@ std::string description(const Surface_mesh& mesh, Face_labels<Surface_mesh>& lab
 }
 
 /// \param cause what the text of the error must tell
-void expect_refused(Surface_mesh& mesh, const Curves& curves, Face_labels<Surface_mesh>& labels,
+void expect_refused(Surface_mesh& mesh, const Curves& curves, Growing_face_labels<Surface_mesh>& labels,
                     const std::string& cause = "") {
   const std::string before = description(mesh, labels);
   try {
@@ -90,7 +92,7 @@ void expect_refused(Surface_mesh& mesh, const Curves& curves, Face_labels<Surfac
 struct Two_halves {
   Shape shape = meshes::plane(20);
   Surface_mesh mesh = meshes::surface_mesh(shape);
-  Face_labels<Surface_mesh> labels{
+  Growing_face_labels<Surface_mesh> labels{
       mesh, labels_by_place(shape, [](const Eigen::Vector3d& p) { return std::size_t(p.x() + 0.4 * p.y() > 0.7); })};
   Curves curves = smooth_boundaries(mesh, labels.map());
 };
@@ -109,7 +111,7 @@ TYPED_TEST(SplitAlongBoundaries, SurfaceAndSegmentsStayWhatTheyWere) {
   for (const Shape& shape : {bumpy_torus(), meshes::sphere(3), meshes::two_spheres_with_neck(3, 0.3, 24)})
     for (const std::size_t segments : {2u, 9u, 40u}) {
       TypeParam held(shape);
-      Face_labels<typename TypeParam::Mesh> labels(held.mesh, random_cells(shape, segments));
+      Growing_face_labels<typename TypeParam::Mesh> labels(held.mesh, random_cells(shape, segments));
       const Split_report report = refine(held.mesh, labels);
       EXPECT_GT(report.faces_added, 0u);
     }
@@ -118,7 +120,7 @@ TYPED_TEST(SplitAlongBoundaries, SurfaceAndSegmentsStayWhatTheyWere) {
 TYPED_TEST(SplitAlongBoundaries, OpenMeshesKeepTheirBorder) {
   const Shape shape = meshes::with_noise(meshes::plane(20), 0.004);
   TypeParam held(shape);
-  Face_labels<typename TypeParam::Mesh> labels(held.mesh, random_cells(shape, 6));
+  Growing_face_labels<typename TypeParam::Mesh> labels(held.mesh, random_cells(shape, 6));
   const std::size_t before = measures(held.mesh, labels).border_edges;
   refine(held.mesh, labels);
   EXPECT_EQ(measures(held.mesh, labels).border_edges, before);
@@ -127,7 +129,7 @@ TYPED_TEST(SplitAlongBoundaries, OpenMeshesKeepTheirBorder) {
 TYPED_TEST(SplitAlongBoundaries, EachComponentIsCutByItself) {
   const Shape shape = meshes::together(bumpy_torus(), meshes::moved(meshes::sphere(3), {9, 0, 0}));
   TypeParam held(shape);
-  Face_labels<typename TypeParam::Mesh> labels(
+  Growing_face_labels<typename TypeParam::Mesh> labels(
       held.mesh, labels_by_place(shape, [](const Eigen::Vector3d& p) { return std::size_t(p.z() > 0.1 * p.x()); }));
   EXPECT_GT(refine(held.mesh, labels).faces_added, 0u);
 }
@@ -139,7 +141,7 @@ TYPED_TEST(SplitAlongBoundaries, LabelsWithoutAnyOrderSurvive) {
     std::mt19937 random(5);
     Labels chaos;
     for (std::size_t f = 0; f < shape.faces.size(); ++f) chaos.push_back(random() % number);
-    Face_labels<typename TypeParam::Mesh> labels(held.mesh, chaos);
+    Growing_face_labels<typename TypeParam::Mesh> labels(held.mesh, chaos);
     refine(held.mesh, labels);
   }
 }
@@ -155,7 +157,7 @@ TEST(SplitAlongBoundariesOf, TatteredMeshesKeepSurfaceAndSegments) {
                                    mesh);
       Labels chaos;
       for (std::size_t f = 0; f < mesh.number_of_faces(); ++f) chaos.push_back(random() % 3);
-      Face_labels<Surface_mesh> labels(mesh, chaos);
+      Growing_face_labels<Surface_mesh> labels(mesh, chaos);
       refine(mesh, labels);
     }
 }
@@ -165,7 +167,7 @@ TEST(SplitAlongBoundariesOf, CrumpledMeshesKeepSurfaceAndSegments) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), 0.3, seed);
     Surface_mesh mesh = meshes::surface_mesh(shape);
-    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+    Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
     refine(mesh, labels);
   }
 }
@@ -175,7 +177,7 @@ TEST(SplitAlongBoundariesOf, CurvesOfGeodesicsKeepSurfaceAndSegments) {
     for (const double noise : {0.02, 0.3}) {
       const Shape shape = meshes::with_noise(meshes::torus(2, 1, 40, 24), noise, seed);
       Surface_mesh mesh = meshes::surface_mesh(shape);
-      Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+      Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
       EXPECT_GT(refine(mesh, labels, Geodesic_joining()).faces_added, 100u);
     }
 }
@@ -190,7 +192,7 @@ TEST(SplitAlongBoundariesOf, GeodesicsPassFacesWithoutArea) {
                                                 : Eigen::Vector3d((shape.points[face[1]] + shape.points[face[2]]) / 2);
     }
     Surface_mesh mesh = meshes::surface_mesh(shape);
-    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
+    Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 12, seed));
     const Surface_measures before = measures(mesh, labels);
     const auto curves = smooth_boundaries(mesh, labels.map(), {}, Geodesic_joining());
     split_along_boundaries(mesh, curves, labels.map());
@@ -204,7 +206,7 @@ TEST(SplitAlongBoundariesOf, NewVerticesLieOnOldEdges) {
   const Shape shape = bumpy_torus();
   const Surface_mesh before = meshes::surface_mesh(shape);
   Surface_mesh mesh = before;
-  Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 9));
+  Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 9));
   const Split_report report = refine(mesh, labels);
   ASSERT_EQ(mesh.number_of_vertices(), before.number_of_vertices() + report.vertices_added);
   for (const auto v : before.vertices()) EXPECT_EQ(mesh.point(v), before.point(v));
@@ -228,7 +230,7 @@ TEST(SplitAlongBoundariesOf, MeshesOfCgalKeepSurfaceAndSegments) {
       const Eigen::Vector3d p = 10 * (point(*mesh, mesh->target(mesh->halfedge(f))) - origin);
       by_place.push_back(static_cast<std::size_t>(static_cast<long>(std::floor(p.x()) + 2 * std::floor(p.y())) & 3));
     }
-    Face_labels<Surface_mesh> labels(*mesh, by_place);
+    Growing_face_labels<Surface_mesh> labels(*mesh, by_place);
     EXPECT_GT(refine(*mesh, labels).faces_added, 100u);
   }
 }
@@ -243,7 +245,7 @@ TEST(SplitAlongBoundariesOf, NoSegmentGetsToTheOtherSideOfAWall) {
     std::map<std::size_t, std::size_t> side_of;  // a segment
     for (std::size_t f = 0; f < sides.size(); ++f) side_of[segments[f]] = sides[f];
     Edge_marks walls = edges_between(mesh, sides);
-    Face_labels<Surface_mesh> labels(mesh, segments);
+    Growing_face_labels<Surface_mesh> labels(mesh, segments);
     const auto areas = [&] {
       std::map<std::size_t, double> area;  // of a side
       for (const auto f : mesh.faces()) {
@@ -274,7 +276,7 @@ TEST(SplitAlongBoundariesOf, WallsThatEndInSegmentsStayWhole) {
     Edge_marks walls;
     for (const auto e : mesh.edges()) walls[e] = random() % 12 == 0;
     const auto is_wall = boost::make_assoc_property_map(walls);
-    Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 6, seed));
+    Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 6, seed));
     const auto curves = smooth_boundaries(mesh, labels.map(), {}, CGAL::parameters::edge_is_constrained_map(is_wall));
     for (const auto& curve : curves)
       for (const auto& p : curve.points) EXPECT_TRUE(p.position == 1 || !walls.at(mesh.edge(p.halfedge)));
@@ -288,7 +290,7 @@ TEST(SplitAlongBoundariesOf, CurvesAlongEdgesAddNothing) {
   Surface_mesh mesh = meshes::surface_mesh(shape);
   Labels six;
   for (std::size_t f = 0; f < shape.faces.size(); ++f) six.push_back(f / 72);
-  Face_labels<Surface_mesh> labels(mesh, six);
+  Growing_face_labels<Surface_mesh> labels(mesh, six);
   const Split_report report = refine(mesh, labels);
   EXPECT_EQ(report.faces_added, 0u);
   EXPECT_EQ(report.faces_relabelled, 0u);
@@ -296,7 +298,7 @@ TEST(SplitAlongBoundariesOf, CurvesAlongEdgesAddNothing) {
 
 TEST(SplitAlongBoundariesOf, WithoutCurvesNothingHappens) {
   Surface_mesh mesh = meshes::surface_mesh(meshes::sphere(2));
-  Face_labels<Surface_mesh> labels(mesh, Labels(num_faces(mesh), 4));
+  Growing_face_labels<Surface_mesh> labels(mesh, Labels(num_faces(mesh), 4));
   const std::string before = description(mesh, labels);
   split_along_boundaries(mesh, Curves(), labels.map());
   EXPECT_TRUE(description(mesh, labels) == before) << "something has changed";
@@ -381,7 +383,7 @@ TEST(SplitAlongBoundariesOf, VisitorCanCarryAttributes) {
   const Shape shape = bumpy_torus();
   const Surface_mesh before = meshes::surface_mesh(shape);
   Surface_mesh mesh = before;
-  Face_labels<Surface_mesh> labels(mesh, random_cells(shape, 9));
+  Growing_face_labels<Surface_mesh> labels(mesh, random_cells(shape, 9));
   const Origin_visitor visitor;
   const Split_report report = split_along_boundaries(mesh, smooth_boundaries(mesh, labels.map()), labels.map(),
                                                      CGAL::parameters::visitor(visitor));
@@ -409,7 +411,7 @@ TEST(SplitAlongBoundariesOf, CrossingCurvesAreRefused) {
   // The mirror image of the curve crosses it in the middle.
   const auto mirrored =
       labels_by_place(halves.shape, [](const Eigen::Vector3d& p) { return std::size_t(p.x() - 0.4 * p.y() > 0.3); });
-  Face_labels<Surface_mesh> other(halves.mesh, mirrored);
+  Growing_face_labels<Surface_mesh> other(halves.mesh, mirrored);
   curves.push_back(smooth_boundaries(halves.mesh, other.map()).at(0));
   expect_refused(halves.mesh, curves, halves.labels, "curve 0 crosses another one");
   curves[1] = curves[0];
@@ -453,6 +455,8 @@ TEST(SplitAlongBoundariesOf, TooLowTrianglesAreRefused) {
 
 TEST(SplitAlongBoundariesOf, QuadranglesAreRefused) {
   Surface_mesh mesh = meshes::surface_mesh(meshes::cube_of_quads());
-  Face_labels<Surface_mesh> labels(mesh, Labels(6, 0));
+  Growing_face_labels<Surface_mesh> labels(mesh, Labels(6, 0));
   expect_refused(mesh, {}, labels);
 }
+
+}  // namespace test_split_along_boundaries

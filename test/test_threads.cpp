@@ -26,6 +26,8 @@
 #include <thread>
 #include <vector>
 
+namespace test_threads {
+
 using namespace RW_segmentation;
 using meshes::Surface_mesh;
 
@@ -154,3 +156,5 @@ TEST(Threads, OfTbbDoNotChangeCurvatures) {
     return values;
   });
 }
+
+}  // namespace test_threads

@@ -26,6 +26,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_tiled_segmentation {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -454,3 +456,5 @@ TEST(TurnHistogram, KeepsMedianAndMeansWithinItsSteps) {
 }
 
 }  // namespace
+
+}  // namespace test_tiled_segmentation

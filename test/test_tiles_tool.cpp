@@ -22,6 +22,8 @@
 #include <thread>
 #include <vector>
 
+namespace test_tiles_tool {
+
 using namespace segment_mesh_tool;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
@@ -257,3 +259,5 @@ TEST_F(Tiles, StopWhenAskedTo) {
 }
 
 }  // namespace
+
+}  // namespace test_tiles_tool

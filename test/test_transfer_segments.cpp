@@ -26,6 +26,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_transfer_segments {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -282,3 +284,5 @@ TEST(TransferSegments, TheCallbackSeesProgressAndCancels) {
     EXPECT_EQ(result.values().front(), result.untouched);
   }
 }
+
+}  // namespace test_transfer_segments

@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_vtp_files {
+
 namespace {
 
 using namespace mesh_bytes;
@@ -273,3 +275,5 @@ TEST(Vtp_files, DamagedOnesAreReadSoundlyOrRefused) {
   EXPECT_GT(refused, runs / 10);
   EXPECT_LT(refused, runs);
 }
+
+}  // namespace test_vtp_files

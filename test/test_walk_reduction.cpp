@@ -35,6 +35,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_walk_reduction {
+
 using namespace RW_segmentation;
 using internal::Face_clusters;
 using networks::Index;
@@ -356,3 +358,5 @@ TEST(FragmentsViaRandomWalks, WriteNothingWhereTheyCannotAnswer) {
   EXPECT_EQ(ids.values(), untouched);
   EXPECT_EQ(fragments_via_random_walks(dual, conductance, Faces{}, ids.map()), 1u);  // a component without a seed
 }
+
+}  // namespace test_walk_reduction

@@ -26,6 +26,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_walk_solvers {
+
 using namespace networks;
 using RW_segmentation::Eigen_walk_solver;
 using RW_segmentation::Potentials;
@@ -449,3 +451,5 @@ TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {
   Star_mesh_elimination star_mesh;
   EXPECT_LE((networks::potentials(star_mesh, network, seeds).rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
 }
+
+}  // namespace test_walk_solvers

@@ -37,6 +37,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_walls {
+
 using namespace RW_segmentation;
 
 namespace {
@@ -476,3 +478,5 @@ TEST(WallsInStages, OnEveryEdgeMakeEveryFaceASegment) {
   EXPECT_EQ(segmentation_via_random_walks(mesh, ids.map(), Paper_segmentation(), np), 80u);
   EXPECT_EQ(segmentation_via_random_walks(mesh, ids.map(), Coarse_paper_segmentation(), np), 80u);
 }
+
+}  // namespace test_walls
