@@ -16,6 +16,7 @@
 
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/mesh_segmentation.h>
+#include <CGAL/subdivision_method_3.h>
 
 #include <CLI/CLI.hpp>
 

@@ -10,6 +10,7 @@
 #include <CGAL/Monge_via_jet_fitting.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/generators.h>
+#include <CGAL/subdivision_method_3.h>
 
 #include <CLI/CLI.hpp>
 

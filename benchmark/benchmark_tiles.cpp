@@ -9,6 +9,8 @@
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
+#include <CGAL/subdivision_method_3.h>
+
 #include <CLI/CLI.hpp>
 
 #ifdef RW_SEGMENTATION_WITH_METIS
