@@ -290,7 +290,7 @@ struct Walled {
 
 TEST(SmoothBoundaries, NoCurveCrossesAWall) {
   std::size_t smoothed = 0, crossed_without_walls = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
     Walled walled(seed % 2 == 0 ? bumpy_torus() : meshes::with_noise(meshes::sphere(3), 0.01), seed);
     const Surface_mesh& mesh = walled.mesh;
     const Labels cells = random_cells(walled.shape, 8, seed + 100);
