@@ -140,8 +140,8 @@ class Noise_estimate {
     return std::max<std::size_t>(1, number_of_faces_ / trials);
   }
 
-  /// The surface that is closest to the vertices of a patch and turns as its faces do, with the deviation of these vertices
-  /// as its residual; none if there are too few. The first, a plane as a rule, need not turn so.
+  /// The surface that is closest to the vertices of a patch among those that turn as its faces do, or the first that fits
+  /// where none does, with the deviation of these vertices as its residual; none if there are too few.
   std::optional<Analytic_surface> closest_surface_of(const Face_patches::Patch& patch) {
     constexpr double least_surplus = 4;  // vertices beyond those that determine a surface
     const Surface_samples& samples = patches_.samples_of(patch);
@@ -159,13 +159,16 @@ class Noise_estimate {
     return closest;
   }
 
-  /// Whether normals have more to do with those of a surface than if they were by chance. The vertices of a disc, as kernels
-  /// mesh it, are a ring: a torus about it with a tube as thin as the noise leaves half of this, at right angles to the faces.
+  /// Whether the faces are closer in direction to a surface than chance would have them. The vertices of a disc, as kernels
+  /// mesh it, are a ring, and a torus about that ring, its tube as thin as the noise, explains half of the noise although it
+  /// stands at right angles to the disc.
   static bool turns_alike(const Analytic_surface& surface, const Surface_samples& samples) {
-    constexpr double errors = 2;  // standard ones of the mean cosine of directions by chance, each 1 / sqrt(3 n)
+    // Of n directions by chance the mean cosine is 0, with a standard error of 1 / sqrt(3 n). With three of them in place of
+    // two, noise of .3 % would be taken for dependent on a flange as a kernel meshes it (benchmark_engineering's solids).
+    constexpr double standard_errors = 2;
     const auto normals = static_cast<double>(samples.normals.size());
     const double mean_cosine = 1 - squared_turns(surface, samples) / (2 * normals);
-    return mean_cosine > errors / std::sqrt(3 * normals);
+    return mean_cosine > standard_errors / std::sqrt(3 * normals);
   }
 
   /// Of the distances of both ends of an edge in a patch from a surface.
