@@ -140,8 +140,8 @@ class Noise_estimate {
     return std::max<std::size_t>(1, number_of_faces_ / trials);
   }
 
-  /// The surface that is closest to the vertices of a patch among those that turn as its faces do, or the first that fits
-  /// where none does, with the deviation of these vertices as its residual; none if there are too few.
+  /// The surface that is closest to the vertices of a patch, of the first type that fits, as a rule the plane, and the others
+  /// that turn as its faces do, with the deviation of these vertices as its residual; none if there are too few.
   std::optional<Analytic_surface> closest_surface_of(const Face_patches::Patch& patch) {
     constexpr double least_surplus = 4;  // vertices beyond those that determine a surface
     const Surface_samples& samples = patches_.samples_of(patch);
@@ -164,7 +164,8 @@ class Noise_estimate {
   /// stands at right angles to the disc.
   static bool turns_alike(const Analytic_surface& surface, const Surface_samples& samples) {
     // Of n directions by chance the mean cosine is 0, with a standard error of 1 / sqrt(3 n). With three of them in place of
-    // two, noise of .3 % would be taken for dependent on a flange as a kernel meshes it (benchmark_engineering's solids).
+    // two, noise of .3 % is taken for dependent in two of eight cases of a flange as a kernel meshes it (the solids of
+    // benchmark_engineering).
     constexpr double standard_errors = 2;
     const auto normals = static_cast<double>(samples.normals.size());
     const double mean_cosine = 1 - squared_turns(surface, samples) / (2 * normals);
