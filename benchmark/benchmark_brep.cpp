@@ -29,6 +29,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,10 +115,11 @@ Score score_of(const Subject& subject) {
   score.segmentation_ms = segmentation.milliseconds();
 
   const Stopwatch representation;
-  const segment_mesh::Cad_shape shape(dual, dual.read_segments(map), surfaces, segment_mesh::length_units[0], {});
+  const std::unique_ptr<const segment_mesh::Cad_shape> shape(
+      segment_mesh_new_cad_shape(dual, dual.read_segments(map), surfaces, segment_mesh::length_units[0], {}));
   score.representation_ms = representation.milliseconds();
-  const Json report = shape.report();
-  score.is_sound = shape.defect().empty();
+  const Json report = shape->report();
+  score.is_sound = shape->defect().empty();
   score.has_triangles = report["triangles"].get<std::size_t>() > 0;
   const auto error = [&](double truth, const char* name) {
     return std::abs(report[name].get<double>() - truth) / truth;
@@ -125,7 +127,7 @@ Score score_of(const Subject& subject) {
   score.area_error = error(subject.area, "area");
   score.volume_error = error(report["mesh_volume"].get<double>(), "volume");
   const std::vector<mesh_files::Color> colors(segments, mesh_files::Color{200, 200, 200});
-  score.megabytes = double(shape.content(segment_mesh::Cad_format::step, subject.name, colors).size()) / 1e6;
+  score.megabytes = double(shape->content(segment_mesh::Cad_format::step, subject.name, colors).size()) / 1e6;
   print(subject.name, score, report);
   return score;
 }

@@ -73,7 +73,7 @@ class Segment_mesh_tool : public testing::Test {
       std::vector<char*> pointers = {const_cast<char*>("segment_mesh")};
       for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
       pointers.push_back(nullptr);
-      execv(SEGMENT_MESH, pointers.data());
+      execv(program_.c_str(), pointers.data());
       _exit(99);
     }
     return process;
@@ -109,6 +109,8 @@ class Segment_mesh_tool : public testing::Test {
     std::ifstream file(path(name));
     return {std::istream_iterator<std::size_t>(file), {}};
   }
+
+  std::string program_ = SEGMENT_MESH;
 
  private:
   const std::string number_ = std::to_string(std::random_device()());

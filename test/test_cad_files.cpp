@@ -18,6 +18,7 @@ TEST(Cad_files, AreWritten) { GTEST_SKIP() << "the tool is not built"; }
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -129,6 +130,15 @@ TEST_F(Cad_files, AreRefusedWhereNoSurfacesAreFound) {
   expect_failure(1, "give --output part.step, too", {"box.off", "--engineering", "--keep-invalid"});
   expect_failure(1, "mile is none of mm, cm, m, inch, ft",
                  {"box.off", "--engineering", "-o", "b.step", "--unit", "mile"});
+}
+
+TEST_F(Cad_files, AreRefusedBeforeTheWorkWhereTheirLibraryIsMissing) {
+  write_solid("box.off", solids::box(solids::by_kernel()));
+  program_ = path("tool");
+  std::filesystem::copy_file(SEGMENT_MESH, program_);  // away from the library
+  expect_failure(1, "CAD files need a library that cannot be loaded: segment_mesh_cad",
+                 {"box.off", "--engineering", "-o", "box.step"});
+  EXPECT_EQ(run({"box.off", "--engineering", "-o", "box.ply"}).exit_code, 0);
 }
 
 #else

@@ -30,13 +30,6 @@ inline std::optional<Cad_format> cad_format_of(const std::string& path) {
   return std::nullopt;
 }
 
-/// Whether this program was built with Open CASCADE.
-#ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
-constexpr bool writes_cad_files = true;
-#else
-constexpr bool writes_cad_files = false;
-#endif
-
 /// A unit of lengths.
 struct Length_unit {
   const char* name;

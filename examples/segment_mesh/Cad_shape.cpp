@@ -43,10 +43,6 @@ namespace segment_mesh {
 namespace RW = RW_segmentation;
 using Json = nlohmann::ordered_json;
 
-struct Cad_shape::Parts {
-  RW::Boundary_representation shape;
-};
-
 namespace {
 
 /// Open CASCADE tells of its progress on standard output, which may be a file of ours.
@@ -138,57 +134,66 @@ Json report_of_face(const RW::Boundary_face& face) {
           {"has_chords", face.has_chords}};
 }
 
-}  // namespace
+/// A shape of Open CASCADE.
+class Kernel_shape : public Cad_shape {
+ public:
+  Kernel_shape(RW::Boundary_representation shape, const Length_unit& unit) : shape_(std::move(shape)), unit_(unit) {}
 
-Cad_shape::Cad_shape(const RW::Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face,
-                     const std::vector<RW::Analytic_surface>& surfaces, const Length_unit& unit,
-                     const std::function<bool(double)>& callback)
-    : unit_(unit) {
-  silence_kernel();
-  parts_.reset(new Parts{RW::internal::boundary_representation(mesh, segment_of_face, surfaces, unit.millimetres,
-                                                               RW::Progress(callback))});
-}
+  std::string defect() const override { return shape_.defect(); }
 
-Cad_shape::~Cad_shape() = default;
-
-std::string Cad_shape::defect() const { return parts_->shape.defect(); }
-
-Json Cad_shape::report() const {
-  const RW::Boundary_representation& shape = parts_->shape;
-  const RW::Boundary_report& r = shape.report;
-  Json result = {{"unit", unit_.name},
-                 {"defect", shape.defect()},
-                 {"valid", r.is_valid},
-                 {"closed", r.is_closed},
-                 {"solids", r.solids},
-                 {"voids", r.voids},
-                 {"open_shells", r.open_shells},
-                 {"edges", r.edges},
-                 {"triangles", shape.number_of_triangles()},
-                 {"area", r.area},
-                 {"mesh_area", r.mesh_area},
-                 {"volume", r.volume},
-                 {"mesh_volume", r.mesh_volume},
-                 {"refusals", Json::object()},
-                 {"faces", Json::array()}};
-  for (const auto& [reason, number] : r.refusals) result["refusals"][reason] = number;
-  for (const RW::Boundary_face& face : shape.faces)
-    if (!face.is_triangle) result["faces"].push_back(report_of_face(face));
-  return result;
-}
-
-std::string Cad_shape::content(Cad_format format, const std::string& name,
-                               const std::vector<mesh_files::Color>& color_of_segment) const try {
-  if (format == Cad_format::brep) {
-    std::ostringstream content;
-    BRepTools::Write(parts_->shape.shape, content);
-    return content.str();
+  Json report() const override {
+    const RW::Boundary_report& r = shape_.report;
+    Json result = {{"unit", unit_.name},
+                   {"defect", shape_.defect()},
+                   {"valid", r.is_valid},
+                   {"closed", r.is_closed},
+                   {"solids", r.solids},
+                   {"voids", r.voids},
+                   {"open_shells", r.open_shells},
+                   {"edges", r.edges},
+                   {"triangles", shape_.number_of_triangles()},
+                   {"area", r.area},
+                   {"mesh_area", r.mesh_area},
+                   {"volume", r.volume},
+                   {"mesh_volume", r.mesh_volume},
+                   {"refusals", Json::object()},
+                   {"faces", Json::array()}};
+    for (const auto& [reason, number] : r.refusals) result["refusals"][reason] = number;
+    for (const RW::Boundary_face& face : shape_.faces)
+      if (!face.is_triangle) result["faces"].push_back(report_of_face(face));
+    return result;
   }
-  Cad_document document;
-  document.add(parts_->shape, name, color_of_segment);
-  return format == Cad_format::step ? step_content(document, name, unit_) : iges_content(document, unit_);
-} catch (const Standard_Failure& error) {
-  throw std::runtime_error(std::string("Open CASCADE: ") + error.GetMessageString());
-}
 
+  std::string content(Cad_format format, const std::string& name,
+                      const std::vector<mesh_files::Color>& color_of_segment) const override try {
+    if (format == Cad_format::brep) {
+      std::ostringstream content;
+      BRepTools::Write(shape_.shape, content);
+      return content.str();
+    }
+    Cad_document document;
+    document.add(shape_, name, color_of_segment);
+    return format == Cad_format::step ? step_content(document, name, unit_) : iges_content(document, unit_);
+  } catch (const Standard_Failure& error) {
+    throw std::runtime_error(std::string("Open CASCADE: ") + error.GetMessageString());
+  }
+
+ private:
+  RW::Boundary_representation shape_;
+  Length_unit unit_;
+};
+
+}  // namespace
 }  // namespace segment_mesh
+
+segment_mesh::Cad_shape* segment_mesh_new_cad_shape(const RW_segmentation::Dual_mesh& mesh,
+                                                    const std::vector<std::size_t>& segment_of_face,
+                                                    const std::vector<RW_segmentation::Analytic_surface>& surfaces,
+                                                    const segment_mesh::Length_unit& unit,
+                                                    const std::function<bool(double)>& callback) {
+  segment_mesh::silence_kernel();
+  return new segment_mesh::Kernel_shape(
+      RW_segmentation::internal::boundary_representation(mesh, segment_of_face, surfaces, unit.millimetres,
+                                                         RW_segmentation::Progress(callback)),
+      unit);
+}

@@ -13,41 +13,42 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace segment_mesh {
 
-/// The segments of a mesh as a CAD system has them. The one file that knows Open CASCADE, Cad_shape.cpp, defines this.
+/// The segments of a mesh as a CAD system has them.
 class Cad_shape {
  public:
-  /// \param surfaces by segment
-  /// \param unit of the mesh's coordinates
-  Cad_shape(const RW_segmentation::Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face,
-            const std::vector<RW_segmentation::Analytic_surface>& surfaces, const Length_unit& unit,
-            const std::function<bool(double)>& callback);
   Cad_shape(const Cad_shape&) = delete;
   Cad_shape& operator=(const Cad_shape&) = delete;
-  ~Cad_shape();
+  virtual ~Cad_shape() = default;
 
   /// Why the shape does not stand for the mesh; empty if it does.
-  std::string defect() const;
+  virtual std::string defect() const = 0;
 
   /// What became of the mesh, by face, too; lengths are in millimetres.
-  nlohmann::ordered_json report() const;
+  virtual nlohmann::ordered_json report() const = 0;
 
   /// The content of a file in which solids have the name of the mesh, and faces the names and colours of their segments.
   /// \param color_of_segment by segment
-  std::string content(Cad_format format, const std::string& name,
-                      const std::vector<mesh_files::Color>& color_of_segment) const;
+  virtual std::string content(Cad_format format, const std::string& name,
+                              const std::vector<mesh_files::Color>& color_of_segment) const = 0;
 
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-  Length_unit unit_;
+ protected:
+  Cad_shape() = default;
 };
 
 }  // namespace segment_mesh
+
+/// Makes the shape of a mesh, which the caller deletes. The one file that knows Open CASCADE, Cad_shape.cpp, defines it;
+/// its name is that of a function of C, by which a library is asked for it.
+/// \param surfaces by segment
+/// \param unit of the mesh's coordinates
+extern "C" segment_mesh::Cad_shape* segment_mesh_new_cad_shape(
+    const RW_segmentation::Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face,
+    const std::vector<RW_segmentation::Analytic_surface>& surfaces, const segment_mesh::Length_unit& unit,
+    const std::function<bool(double)>& callback);
 
 #endif

@@ -9,6 +9,7 @@
 #include "../mesh_files/Text.h"
 #include "../mesh_files/read_content.h"
 #include "Cad_format.h"
+#include "Cad_library.h"
 #include "Method.h"
 #include "Oriented_mesh.h"
 #include "seeds.h"
@@ -195,6 +196,12 @@ inline void check_cad_files(const Options& options) {
                                "(Debian: libocct-data-exchange-dev) and build segment_mesh again");
   if (!options.is_engineering)
     throw CLI::ValidationError("--output", "the faces of CAD files lie on surfaces: give --engineering, too");
+  try {
+    cad_library();
+  } catch (const std::runtime_error& error) {
+    throw CLI::ValidationError("--output",
+                               "CAD files need a library that cannot be loaded: " + std::string(error.what()));
+  }
 }
 
 /// Refuses what tiles cannot have, and what only they can.

@@ -45,7 +45,7 @@ constexpr std::array<Help_section, 8> help_sections = {{
      "not written unless --keep-invalid is given, and the exit code is 8. --report has the checks, face by face. This "
      "needs\n"
      "Open CASCADE when segment_mesh is built; "
-#ifdef SEGMENT_MESH_WITH_OPEN_CASCADE
+#ifdef SEGMENT_MESH_CAD_LIBRARY
      "this one has it.\n",
 #else
      "this one lacks it.\n",

@@ -6,7 +6,7 @@
 #include "../mesh_files/Polygon_soup.h"
 #include "Boundaries.h"
 #include "Cad_format.h"
-#include "Cad_shape.h"
+#include "Cad_library.h"
 #include "Options.h"
 #include "Oriented_mesh.h"
 #include "Output_files.h"
@@ -25,6 +25,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -72,10 +73,11 @@ inline Json write_cad_files(const Task& task, const Options& options, const Mesh
     const Dual dual(mesh);
     std::vector<std::size_t> labels = result.label;
     const std::vector<std::size_t> label_of_number = dual.read_segments(face_map(mesh, labels));
-    const Cad_shape shape(dual, label_of_number, result.surfaces, options.unit.value_or(length_units[0]), callback);
-    if (!shape.defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape.defect());
-    files.write_cad_files(shape, name_of_mesh(task.mesh), segments);
-    return shape.report();
+    const Length_unit unit = options.unit.value_or(length_units[0]);
+    const std::unique_ptr<const Cad_shape> shape(cad_library()(dual, label_of_number, result.surfaces, unit, callback));
+    if (!shape->defect().empty() && !options.keeps_invalid) throw Unsound_shape(shape->defect());
+    files.write_cad_files(*shape, name_of_mesh(task.mesh), segments);
+    return shape->report();
   }
   return {};
 }
