@@ -14,6 +14,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

@@ -12,6 +12,7 @@
 #include <CGAL/subdivision_method_3.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 
 #ifdef RW_SEGMENTATION_WITH_METIS
 #include <metis.h>
