@@ -134,8 +134,9 @@ TEST_F(Cad_files, AreRefusedWhereNoSurfacesAreFound) {
 
 TEST_F(Cad_files, AreRefusedBeforeTheWorkWhereTheirLibraryIsMissing) {
   write_solid("box.off", solids::box(solids::by_kernel()));
-  program_ = path("tool");
-  std::filesystem::copy_file(SEGMENT_MESH, program_);  // away from the library
+  std::filesystem::create_directory(path("away_from_the_library"));
+  program_ = path("away_from_the_library/segment_mesh");
+  std::filesystem::copy_file(SEGMENT_MESH, program_);
   expect_failure(1, "CAD files need a library that cannot be loaded: segment_mesh_cad",
                  {"box.off", "--engineering", "-o", "box.step"});
   EXPECT_EQ(run({"box.off", "--engineering", "-o", "box.ply"}).exit_code, 0);
