@@ -705,7 +705,7 @@ TEST(Islands, GoWhereAllPotentialsTellThemToWhateverTheSolverOffers) {
   std::size_t walks_with_islands = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
-    networks::Network network{networks::triangulated_torus(seed % 2 ? 20 : 40), {}};
+    networks::Network network{networks::triangulated_torus(seed % 2 ? 30 : 60), {}};
     network.conductances = networks::spread_conductances(network.graph.number_of_edges(), seed % 2 ? 2 : 12, random);
     internal::Graph_walk walk(network.graph, network.conductances);
     internal::Graph_walk reference(network.graph, network.conductances, Solver_of_all_potentials());

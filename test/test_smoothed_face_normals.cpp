@@ -277,16 +277,17 @@ TEST(Smoothed_face_normals, ComeFromASolverThatKeepsItsToleranceHoweverFarItDiff
       const Waves waves(n, radius);
       const meshes::Surface_mesh mesh = meshes::surface_mesh(waves.tube);
       const Dual_mesh_of dual(mesh);
-      Normals before(n * n);
-      for (std::uint32_t f = 0; f < n * n; ++f) before[f] = waves.before[dual.place(f)];
+      Normals before(n * n), after(n * n);
+      for (std::uint32_t f = 0; f < n * n; ++f) {
+        const std::size_t place = dual.place(f);
+        before[f] = waves.before[place];
+        after[f] = waves.after[place];
+      }
       RW_segmentation::internal::Face_diffusion diffusion(dual, radius * radius * dual.total_area());
       for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
         const Normals found = diffusion.solve(before, before, tolerance, RW_segmentation::Progress());
         double sum = 0;
-        for (std::uint32_t f = 0; f < n * n; ++f) {
-          const Eigen::Vector3d& expected = waves.after[dual.place(f)];
-          sum += (found[f] - expected).squaredNorm() / expected.squaredNorm();
-        }
+        for (std::uint32_t f = 0; f < n * n; ++f) sum += (found[f] - after[f]).squaredNorm() / after[f].squaredNorm();
         EXPECT_LE(std::sqrt(sum / static_cast<double>(n * n)), tolerance) << n << " x " << n << ", radius " << radius;
       }
     }
