@@ -27,10 +27,6 @@
 #include <utility>
 #include <vector>
 
-#ifdef RW_SEGMENTATION_WITH_CLI11
-#include <CLI/CLI.hpp>
-#endif
-
 // What most examples read their mesh with is compiled once, in precompiled_header.cpp.
 extern template bool CGAL::Polygon_mesh_processing::IO::read_polygon_mesh(
     const std::string&, CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>&,

@@ -8,7 +8,7 @@ cmake_policy(VERSION 3.21)
 set(headers <algorithm> <array> <cmath> <cstddef> <cstdint> <exception> <functional> <iostream> <limits> <map> <optional>
   <string> <utility> <vector> <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h> <CGAL/Simple_cartesian.h>
   <CGAL/Surface_mesh.h> <boost/graph/dijkstra_shortest_paths.hpp> <boost/property_map/function_property_map.hpp>
-  <Eigen/Core> <CLI/CLI.hpp>)
+  <Eigen/Core>)
 set(uses_algorithm "std::(sort|any_of|all_of|none_of|find_if|min|max|minmax|fill|transform|count|count_if|reverse|unique)[(<]")
 set(uses_array "std::array<")
 set(uses_cmath "std::(sqrt|abs|pow|sin|cos|tan|acos|asin|atan2|log|log2|log10|exp|floor|ceil|hypot|isfinite|isnan|round)[(]")
@@ -29,7 +29,6 @@ set(uses_Surface_mesh "CGAL::Surface_mesh<")
 set(uses_dijkstra_shortest_paths "boost::dijkstra_shortest_paths")
 set(uses_function_property_map "boost::(make_)?function_property_map")
 set(uses_Core "Eigen::(Vector|Matrix|Array|RowVector)")
-set(uses_CLI "CLI::")
 
 # What a file of the project includes, and what those of the project do that it includes by their paths.
 function(includes_of file result)
