@@ -54,7 +54,7 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 
-file(GLOB programs ${ROOT}/examples/*.cpp ${ROOT}/benchmark/*.cpp)
+file(GLOB programs ${ROOT}/examples/*.cpp ${ROOT}/benchmark/*.cpp ${ROOT}/doc/*.cpp)
 foreach(program IN LISTS programs)
   includes_of(${program} includes)
   file(READ ${program} text)
