@@ -106,16 +106,16 @@ else()
     "Install libcgal-demo or give RW_SEGMENTATION_DATA_DIR.")
 endif()
 
-# One precompiled header for examples and benchmark programs. Where they are few, as in scripts/quickstart, it takes longer than
-# it saves.
+# One precompiled header for examples and benchmark programs, and what they share. Where they are few, as in
+# scripts/quickstart, it takes longer than it saves.
 if(RW_SEGMENTATION_BUILD_BENCHMARK OR RW_SEGMENTATION_BUILD_TESTS)
-  add_library(program_precompiled_header OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
+  add_library(program_precompiled_header STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
   target_link_libraries(program_precompiled_header PRIVATE RW_segmentation_development)
   target_precompile_headers(program_precompiled_header PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.h)
 endif()
 function(use_precompiled_header program)
   if(TARGET program_precompiled_header)
     target_precompile_headers(${program} REUSE_FROM program_precompiled_header)
-    target_sources(${program} PRIVATE $<TARGET_OBJECTS:program_precompiled_header>)
+    target_link_libraries(${program} PRIVATE program_precompiled_header)
   endif()
 endfunction()

@@ -22,8 +22,8 @@ constexpr bool writes_cad_files = false;
 #endif
 
 /// The function `segment_mesh_new_cad_shape()` of the library beside the program that is linked with Open CASCADE. The
-/// library is loaded by the first call: Open CASCADE is some thirty libraries, which take longer to load than most meshes
-/// take to be segmented.
+/// library is loaded by the first call: Open CASCADE is some thirty libraries, which take nine times as long to load as the
+/// program takes to start.
 /// \throws std::runtime_error if it cannot be loaded
 inline auto cad_library() {
   using New_cad_shape = decltype(&segment_mesh_new_cad_shape);
