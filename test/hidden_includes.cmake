@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 
-# Each example and benchmark program includes what it uses, also what the precompiled header hides: compiled with it, a
-# program does without. What is used is told by its name, and counts as included where a header of the project does it.
+# Each program that shares the precompiled header includes what it uses of it, which no compiler sees. What is used is told
+# by its name, and counts as included where a header of the project that the program includes by its path does so.
 
 cmake_policy(VERSION 3.21)
 

@@ -10,7 +10,6 @@
 #endif
 
 #include <stdexcept>
-#include <string>
 
 namespace segment_mesh {
 

@@ -4,7 +4,7 @@
 #define SEGMENT_MESH_FAILURE_H
 
 #include "../mesh_files/Polygon_soup.h"
-#include "Cad_shape.h"
+#include "Cad_format.h"
 #include "Options.h"
 #include "limits.h"
 #include "signals.h"
