@@ -14,14 +14,21 @@
 
 #include <boost/property_map/function_property_map.hpp>
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
 #include <gtest/gtest.h>
+#include <link.h>
 #include "boundaries.h"
 #include "face_labels.h"
 #include "meshes.h"
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <new>
@@ -30,25 +37,58 @@
 
 namespace {
 
+#ifdef CGAL_LINKED_WITH_TBB
+// Of several threads, which of them is refused memory would be chance.
+const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+#endif
+
 constexpr long never = std::numeric_limits<long>::max();
 std::atomic<long> allocations_left = never;
 
-void* allocate(std::size_t size) {
-  if (allocations_left != never && --allocations_left < 0) throw std::bad_alloc();
+/// Where code lies in memory.
+struct Code {
+  std::uintptr_t begin = 0, end = 0;
+};
+
+Code code_of_tbb() {
+  Code code;
+  dl_iterate_phdr(
+      [](dl_phdr_info* library, std::size_t, void* found) {
+        if (std::strstr(library->dlpi_name, "libtbb.") == nullptr) return 0;
+        for (int i = 0; i < library->dlpi_phnum; ++i) {
+          const auto& segment = library->dlpi_phdr[i];
+          if ((segment.p_flags & PF_X) == 0) continue;
+          const std::uintptr_t begin = library->dlpi_addr + segment.p_vaddr;
+          *static_cast<Code*>(found) = {begin, begin + segment.p_memsz};
+        }
+        return 1;
+      },
+      &code);
+  return code;
+}
+
+const Code tbb_code = code_of_tbb();
+
+/// \param caller where operator new returns to. TBB hangs when its own allocations fail, so that they do not fail here.
+void* allocate(std::size_t size, const void* caller) {
+  const auto address = reinterpret_cast<std::uintptr_t>(caller);
+  const bool is_of_tbb = tbb_code.begin <= address && address < tbb_code.end;
+  if (allocations_left != never && !is_of_tbb && --allocations_left < 0) throw std::bad_alloc();
   if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
 
 }  // namespace
 
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
+// Not inlined, where g++ would miss the operator new that an operator delete belongs to.
+[[gnu::noinline]] void* operator new(std::size_t size) { return allocate(size, __builtin_return_address(0)); }
+[[gnu::noinline]] void* operator new[](std::size_t size) { return allocate(size, __builtin_return_address(0)); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size > 0 ? size : 1); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace RW_segmentation;
 using meshes::Surface_mesh;
