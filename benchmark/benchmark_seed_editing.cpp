@@ -51,9 +51,23 @@ double milliseconds_of_pass(std::size_t numbers) {
 
 struct Times {
   std::vector<double> add, remove, redo;
-  double first_edit = 0, equal_labels = 1;
+  double first_edit = 0, from_nothing = 0, anticipated = 0, equal_labels = 1;
   Walk_report report;
 };
+
+/// The time of the first answer of two labels.
+/// \param anticipates whether the walk works ahead once it has the seed of the first one
+double milliseconds_of_two_labels(const Mesh& mesh, const Conductances& conductances, Labels labels, bool anticipates) {
+  Random_walk walk(mesh, as_conductance(conductances));
+  const auto faces = random_faces(mesh, 2);
+  walk.add_seed(faces[0], 0);
+  walk.segment(labels);
+  if (anticipates) walk.anticipate();
+  const Stopwatch watch;
+  walk.add_seed(faces[1], 1);
+  walk.segment(labels);
+  return watch.milliseconds();
+}
 
 /// Edits one walk: an added seed, then a removed one, so that the number of seeds stays; and redoes it all.
 Times edit(const Mesh& mesh, const Conductances& conductances, Labels labels, Labels redone,
@@ -85,6 +99,8 @@ Times edit(const Mesh& mesh, const Conductances& conductances, Labels labels, La
     times.remove.push_back(remove());
   }
   times.report = walk.report();
+  times.from_nothing = milliseconds_of_two_labels(mesh, conductances, redone, false);
+  times.anticipated = milliseconds_of_two_labels(mesh, conductances, redone, true);
 
   for (int repeat = 0; repeat < 3; ++repeat) {
     const Stopwatch watch;
@@ -120,7 +136,9 @@ Result measure(const std::string& size, Mesh mesh, const Arguments& arguments) {
                                milliseconds_of_pass(faces * arguments.seeds),
                                times.equal_labels,
                                static_cast<double>(times.report.factorisations - 1),
-                               peak_mb()};
+                               peak_mb(),
+                               times.from_nothing,
+                               times.anticipated};
   });
   if (!outcome.failure.empty()) throw std::runtime_error(size + ": " + outcome.failure);
   const auto& n = outcome.numbers;
@@ -128,6 +146,7 @@ Result measure(const std::string& size, Mesh mesh, const Arguments& arguments) {
 
   std::printf("\n%s: %zu faces, %zu seeds, cap %g\n", size.c_str(), faces, arguments.seeds, arguments.cap);
   std::printf("  a full redo       %9.2f ms\n", redo);
+  std::printf("  two labels        %9.2f ms from nothing, %.2f where it was anticipated\n", n[10], n[11]);
   std::printf("  the first edit    %9.2f ms, keeps a column a seed from then on\n", n[4]);
   std::printf("  a seed added      %9.2f ms, at most %.2f: a redo / %.1f\n", add, n[1], redo / add);
   std::printf("  a seed removed    %9.2f ms, at most %.2f: a redo / %.1f\n", remove, n[3], redo / remove);

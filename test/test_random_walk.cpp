@@ -451,6 +451,50 @@ TEST(SeedEditing, AnalysesTheMeshOnceHoweverOftenItFactorises) {
   EXPECT_EQ(Counting_solver::analyses, 1);
 }
 
+TEST(SeedEditing, AnswersASecondLabelWithoutAFactorisationWhereItWasAnticipated) {
+  std::mt19937 random(15);
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  const auto faces = networks::random_faces(network.graph, 6, random);
+  for (const std::size_t seeds : {0u, 1u, 4u}) {
+    internal::Graph_walk walk(network.graph, network.conductances), fresh(network.graph, network.conductances);
+    for (std::size_t s = 0; s < seeds; ++s) {
+      walk.add_seed(faces[s], 7);
+      fresh.add_seed(faces[s], 7);
+      walk.anticipate();  // the first one factorises, the others are edits
+    }
+    walk.anticipate();
+    EXPECT_EQ(walk.report().factorisations, seeds > 0 ? 1u : 0u);
+    if (seeds > 0) EXPECT_EQ(walk.labels(), std::vector<std::size_t>(network.graph.number_of_faces(), 7));
+
+    for (auto* const w : {&walk, &fresh}) {
+      w->add_seed(faces[4], 2);
+      w->add_seed(faces[5], 3);
+    }
+    EXPECT_EQ(walk.labels(), fresh.labels());
+    const std::vector<double> potential = walk.potential(3), expected = fresh.potential(3);
+    for (std::size_t f = 0; f < potential.size(); ++f) ASSERT_NEAR(potential[f], expected[f], 1e-9);
+    walk.anticipate();
+    EXPECT_EQ(walk.report().factorisations, 1u);
+    EXPECT_EQ(walk.report().columns_added, seeds > 0 ? seeds + 1 : 0u);
+  }
+}
+
+TEST(SeedEditing, MayBeCancelledWhileItIsAnticipated) {
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances.assign(network.graph.number_of_edges(), 1);
+  bool goes_on = false;
+  internal::Graph_walk walk(network.graph, network.conductances, {}, Progress([&](double) { return goes_on; }));
+  EXPECT_THROW(walk.anticipate(), Cancelled);
+  walk.add_seed(0, 0);
+  EXPECT_THROW(walk.anticipate(), Cancelled);
+  goes_on = true;
+  walk.anticipate();
+  walk.add_seed(100, 1);
+  const std::vector<std::size_t> labels = walk.labels();
+  EXPECT_EQ(labels, internal::walk_labels(network.graph, network.conductances, {0, 100}, {0, 1}));
+}
+
 TEST(SeedEditing, AddsBackASeedThatTheFactorWasMadeWith) {
   std::mt19937 random(5);
   networks::Network network{networks::triangulated_torus(10), {}};

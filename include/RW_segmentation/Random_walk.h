@@ -53,12 +53,12 @@ namespace RW_segmentation {
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`; holds
 /// for all that the object does
 ///
-/// Cost: the first `segment()` orders and factorises (see the solver) and holds O(m + n) memory besides the factor for
-/// m faces and n seeds. The first answer after an edit keeps a column of 8 bytes a face for each seed face; from then
-/// on an added seed costs one pass over the factor and one over the columns, a removed seed one pass over the columns,
-/// a changed label nothing. An edit of more than 8 seed faces at once, or beyond 64 seed faces (strokes), is
-/// solved directly and keeps no columns. Potentials after edits are right to 1e-9; where digits would be lost the walk
-/// factorises anew by itself.
+/// Cost: the first `segment()` orders and factorises (see the solver), unless `anticipate()` has done so, and holds
+/// O(m + n) memory besides the factor for m faces and n seeds. The first answer after an edit keeps a column of 8 bytes a
+/// face for each seed face; from then on an added seed costs one pass over the factor and one over the columns, a removed
+/// seed one pass over the columns, a changed label nothing. An edit of more than 8 seed faces at once, or beyond 64 seed
+/// faces (strokes), is solved directly and keeps no columns. Potentials after edits are right to 1e-9; where digits would
+/// be lost the walk factorises anew by itself.
 template <class FaceListGraph, class Solver = Star_mesh_elimination,
           class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 class Random_walk {
@@ -134,6 +134,15 @@ class Random_walk {
 
   /// The label of a face that is a seed.
   std::optional<Label> label_of_seed(face_descriptor face) const { return walk_.label_of_seed(index(face, "seed")); }
+
+  /// Works ahead for the first answer of two labels, which takes much longer than those after it: orders the faces, and
+  /// factorises for the seeds of the first label, if there are any. For programs whose user looks at the mesh meanwhile.
+  /// Where there are two labels already it does nothing.
+  /// \throws std::runtime_error if the solver fails
+  /// \throws Cancelled if the callback ends the computation
+  void anticipate() {
+    with_threads([&] { walk_.anticipate(); });
+  }
 
   /// Writes the label of each face: the user's own labels, and the next unused ones for components without a seed.
   ///

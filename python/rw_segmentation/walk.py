@@ -105,6 +105,20 @@ class RandomWalk:
         """Make all faces ordinary ones."""
         self._core.clear_seeds()
 
+    def anticipate(self, progress: Progress = None) -> None:
+        """Work ahead, while a user looks at the mesh, for the first answer of two labels.
+
+        It takes much longer than those after it: the faces are ordered, and, once there are seeds of one label, the walk is
+        factorised. Where there are two labels already this does nothing.
+
+        Raises
+        ------
+        Cancelled, KeyboardInterrupt
+            See `segment()`; the walk may be asked again.
+        """
+        with reporting(progress, "walk") as told:
+            self._core.anticipate(told)
+
     @property
     def seeds(self) -> dict[int, int]:
         """The label of each seed, in the order in which they were added."""

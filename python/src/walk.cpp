@@ -58,6 +58,14 @@ class Walk {
     walk_->clear_seeds();
   }
 
+  void anticipate(const nb::object& progress) {
+    without_lock(progress, [&](const auto& callback) {
+      const Access access(*this, &callback);
+      walk_->anticipate();
+      return 0;
+    });
+  }
+
   /// Faces and their labels.
   std::vector<std::pair<std::int64_t, std::int64_t>> seeds() {
     const Access access(*this);
@@ -186,6 +194,7 @@ void define_walk(nb::module_& m) {
       .def("add_seed", &Walk::add_seed, nb::arg("face"), nb::arg("label"))
       .def("remove_seed", &Walk::remove_seed, nb::arg("face"))
       .def("clear_seeds", &Walk::clear_seeds)
+      .def("anticipate", &Walk::anticipate, nb::arg("progress").none())
       .def("seeds", &Walk::seeds)
       .def("labels", &Walk::labels, nb::arg("progress").none())
       .def("probabilities", &Walk::probabilities, nb::arg("progress").none(),

@@ -109,6 +109,18 @@ def test_a_walk_may_be_asked_again_after_it_was_cancelled(large: Mesh) -> None:
     assert np.array_equal(walk.labels(), expected)
 
 
+def test_a_walk_that_works_ahead_is_the_same_walk(large: Mesh) -> None:
+    walk = rw.RandomWalk(*large)
+    walk.add_seed(0, 0)
+    with pytest.raises(rw.Cancelled):
+        walk.anticipate(progress=lambda _: False)
+    told: list[float] = []
+    walk.anticipate(progress=told.append)
+    assert told[-1] == 1
+    walk.add_seed(60000, 1)
+    assert np.array_equal(walk.labels(), rw.segment(*large, seeds={0: 0, 60000: 1}))
+
+
 def test_a_bar_of_tqdm_is_shown(large: Mesh, capfd: pytest.CaptureFixture[str]) -> None:
     rw.segment(*large, progress=True)
     shown = capfd.readouterr().err

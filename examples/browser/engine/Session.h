@@ -161,24 +161,8 @@ class Session {
     return labels;
   }
 
-  /// While all seeds have one label, which needs no factor: factorises with one seed more, so that the first seed of
-  /// another label is answered as quickly as all that follow.
-  void anticipate() {
-    const auto seeds = walk().seeds();
-    if (seeds.empty() || seeds.size() == mesh().number_of_faces()) return;
-    const auto has_another_label = [&](const auto& seed) { return seed.second != seeds.front().second; };
-    if (std::any_of(seeds.begin(), seeds.end(), has_another_label)) return;
-    std::size_t face = (seeds.front().first + mesh().number_of_faces() / 2) % mesh().number_of_faces();
-    while (walk().label_of_seed(checked(face))) face = (face + 1) % mesh().number_of_faces();
-    walk().add_seed(checked(face), seeds.front().second + 1);
-    try {
-      segment();
-    } catch (...) {
-      walk().remove_seed(checked(face));
-      throw;
-    }
-    walk().remove_seed(checked(face));
-  }
+  /// Works ahead, so that the first seed of another label is answered as quickly as all that follow.
+  void anticipate() { walk().anticipate(); }
 
   /// How probably a walk from each face meets a seed of the label first.
   std::vector<float> probabilities(Label label) {

@@ -30,7 +30,9 @@ RW_SEGMENTATION_INLINE Walk_report Graph_walk::report() const {
 
 RW_SEGMENTATION_INLINE void Graph_walk::solve() {
   if (!is_solved()) known_potentials_.clear();
-  Seeded_walk::solve([&](Walk_labels& labels) { return label_by_columns(labels); });
+  Seeded_walk::solve([&](Walk_labels& labels) {
+    return edit_columns([&](const auto& prepare) { return compare_columns(labels, prepare); });
+  });
 }
 
 /// Gives each face the label of the largest sum of its seeds' columns. False where digits were lost.
@@ -44,10 +46,11 @@ bool Graph_walk::compare_columns(Walk_labels& labels, const Prepare& prepare) co
                              10 * Seed_columns::accepted_error, prepare);
 }
 
-/// Answers edits. False where that is impossible, inaccurate or not worth it.
-RW_SEGMENTATION_INLINE bool Graph_walk::label_by_columns(Walk_labels& labels) {
+/// Brings the columns to the seeds. False where that is impossible, inaccurate or not worth it.
+/// \param compare see `Seed_columns::update()`
+template <class Compare>
+bool Graph_walk::edit_columns(const Compare& compare) {
   try {
-    const auto compare = [&](const auto& prepare) { return compare_columns(labels, prepare); };
     if (columns_.update(network(), factor_, seeds_, compare)) return true;
   } catch (...) {  // some columns may know of an edit that others do not
     columns_.clear();
@@ -55,6 +58,21 @@ RW_SEGMENTATION_INLINE bool Graph_walk::label_by_columns(Walk_labels& labels) {
   }
   columns_.clear();
   return false;
+}
+
+RW_SEGMENTATION_INLINE void Graph_walk::anticipate() {
+  const std::vector<Seed_set::Seed>& seeds = seeds_.seeds();
+  const auto has_another_label = [&](const Seed_set::Seed& seed) { return seed.label != seeds.front().label; };
+  if (graph_->number_of_faces() == 0 || std::any_of(seeds.begin(), seeds.end(), has_another_label)) return;
+  const auto only_prepare = [&](const auto& prepare) {
+    for_stretches(network(), prepare);
+    return true;
+  };
+  if (seeds.empty() || seeds.size() > Seed_columns::most_columns)
+    factor_.analyse(network(), progress_);
+  else if (!edit_columns(only_prepare) && !factor_.is_for(seeds_))
+    factor_.factorise(network(), seeds_, progress_);
+  progress_(1);
 }
 
 RW_SEGMENTATION_INLINE std::vector<double> Graph_walk::potential(Label label) {

@@ -31,6 +31,10 @@ class Graph_walk : private Seeded_walk {
   const std::vector<Seed_set::Seed>& seeds() const { return seeds_.seeds(); }
   std::optional<Label> label_of_seed(Index face) const { return seeds_.find_label_of(face); }
 
+  /// While there are no two labels, does what the first answer of two needs and is known already: analyses the graph, and
+  /// factorises for the seeds that there are.
+  void anticipate();
+
   /// As those of a `Seeded_walk`.
   const std::vector<Label>& labels() {
     solve();
@@ -53,7 +57,8 @@ class Graph_walk : private Seeded_walk {
 
  private:
   void solve();
-  bool label_by_columns(Walk_labels& labels);
+  template <class Compare>
+  bool edit_columns(const Compare& compare);
   template <class Prepare>
   bool compare_columns(Walk_labels& labels, const Prepare& prepare) const;
 

@@ -85,6 +85,7 @@ class Seeded_walk {
   Seed_set seeds_;
   Walk_factor factor_;
   Walk_labels labels_;  // as of the last solve; empty if it did not come to its end
+  Progress progress_;
 
  private:
   void normalise_conductances();
@@ -96,7 +97,6 @@ class Seeded_walk {
   std::vector<Label> settled_;            // by face: the label in the end
   std::vector<Label> labels_of_islands_;  // as of the last solve
   std::size_t unseeded_components_ = 0, island_faces_ = 0;
-  Progress progress_;
 };
 
 /// The labels of a walk with the given seeds. Seed faces are all different.

@@ -28,15 +28,20 @@ class Walk_factor {
   /// Takes the solver for one that has analysed the graph already.
   void solver_is_analysed() { analysed_ = true; }
 
+  /// Analyses the graph, the first time.
+  /// \param progress of the whole walk
+  void analyse(const Walk_network& network, const Progress& progress) {
+    if (analysed_) return;
+    solver_.analyze(network.graph);
+    analysed_ = true;
+    progress(when_analysed);
+  }
+
   /// Factorises with the seeds absorbing. Analyses the graph before the first time.
   /// \param progress of the whole walk
   void factorise(const Walk_network& network, const Seed_set& seeds, const Progress& progress) {
     made_ = false;
-    if (!analysed_) {
-      solver_.analyze(network.graph);
-      analysed_ = true;
-      progress(when_analysed);
-    }
+    analyse(network, progress);
     base_ = seeds.faces();
     solver_.factorize(network.conductances, base_, progress.part(when_analysed, when_made));
     made_ = true;
