@@ -96,5 +96,6 @@ int main(int argc, char** argv) {
     std::cout << line << ':';
     for (const auto& [label, faces] : faces_of) std::cout << ' ' << label << '=' << faces;
     std::cout << "  (" << time.count() << " ms)\n";
+    walk.anticipate();  // while the user looks at the answer
   }
 }

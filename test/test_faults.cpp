@@ -179,6 +179,7 @@ TEST_F(Faults, WalkThatRunsOutOfMemoryGoesOnLater) {
   Random_walk whole(mesh, conductance);
   const auto edit = [&](auto& walk, const auto& map) {
     walk.add_seed(seeds[0], 0);
+    walk.anticipate();
     walk.add_seed(seeds[1], 1);
     walk.segment(map);
     walk.add_seed(labels.face(40), 2);

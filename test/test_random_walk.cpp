@@ -465,7 +465,9 @@ TEST(SeedEditing, AnswersASecondLabelWithoutAFactorisationWhereItWasAnticipated)
     }
     walk.anticipate();
     EXPECT_EQ(walk.report().factorisations, seeds > 0 ? 1u : 0u);
-    if (seeds > 0) EXPECT_EQ(walk.labels(), std::vector<std::size_t>(network.graph.number_of_faces(), 7));
+    if (seeds > 0) {
+      EXPECT_EQ(walk.labels(), std::vector<std::size_t>(network.graph.number_of_faces(), 7));
+    }
 
     for (auto* const w : {&walk, &fresh}) {
       w->add_seed(faces[4], 2);
@@ -481,8 +483,9 @@ TEST(SeedEditing, AnswersASecondLabelWithoutAFactorisationWhereItWasAnticipated)
 }
 
 TEST(SeedEditing, MayBeCancelledWhileItIsAnticipated) {
+  std::mt19937 random(16);
   networks::Network network{networks::triangulated_torus(10), {}};
-  network.conductances.assign(network.graph.number_of_edges(), 1);
+  network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
   bool goes_on = false;
   internal::Graph_walk walk(network.graph, network.conductances, {}, Progress([&](double) { return goes_on; }));
   EXPECT_THROW(walk.anticipate(), Cancelled);
