@@ -134,6 +134,10 @@ void for_every_call(const std::function<void(const Callback&)>& work, const std:
 meshes::Shape two_spheres() { return meshes::two_spheres_with_neck(3, 0.3, 6); }
 
 struct Faults : testing::Test {
+#ifdef CGAL_LINKED_WITH_TBB
+  void SetUp() override { ASSERT_LT(tbb_code.begin, tbb_code.end) << "where the code of TBB lies is not known"; }
+#endif
+
   const Surface_mesh mesh = meshes::surface_mesh(two_spheres());
   Face_labels<Surface_mesh> labels{mesh};
   const std::vector<Surface_mesh::Face_index> seeds = {labels.face(0), labels.face(mesh.number_of_faces() - 1)};

@@ -441,6 +441,7 @@ TEST(SeedEditing, AnalysesTheMeshOnceHoweverOftenItFactorises) {
   std::mt19937 random(4);
   networks::Network network{networks::triangulated_torus(10), {}};
   network.conductances = networks::spread_conductances(network.graph.number_of_edges(), 2, random);
+  Counting_solver::analyses = 0;
   internal::Graph_walk walk(network.graph, network.conductances, internal::Any_walk_solver(Counting_solver()));
   for (networks::Index shift = 0; shift < 3; ++shift) {
     walk.clear_seeds();
@@ -448,6 +449,20 @@ TEST(SeedEditing, AnalysesTheMeshOnceHoweverOftenItFactorises) {
     walk.labels();
   }
   EXPECT_EQ(walk.report().factorisations, 3u);
+  EXPECT_EQ(Counting_solver::analyses, 1);
+}
+
+TEST(SeedEditing, AnalysesTheMeshBeforeThereIsASeedWhereItIsAnticipated) {
+  networks::Network network{networks::triangulated_torus(10), {}};
+  network.conductances.assign(network.graph.number_of_edges(), 1);
+  Counting_solver::analyses = 0;
+  internal::Graph_walk walk(network.graph, network.conductances, internal::Any_walk_solver(Counting_solver()));
+  EXPECT_EQ(Counting_solver::analyses, 0);
+  walk.anticipate();
+  EXPECT_EQ(Counting_solver::analyses, 1);
+  walk.add_seed(0, 0);
+  walk.add_seed(100, 1);
+  walk.labels();
   EXPECT_EQ(Counting_solver::analyses, 1);
 }
 

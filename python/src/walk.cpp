@@ -62,7 +62,7 @@ class Walk {
     without_lock(progress, [&](const auto& callback) {
       const Access access(*this, &callback);
       walk_->anticipate();
-      return 0;
+      return true;  // since `without_lock()` returns what its work does
     });
   }
 
