@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// What most tests include and what takes long to parse. A test includes what it uses all the same.
+// What most tests and fuzz targets include and what takes long to parse. They include what they use all the same.
 #include <gtest/gtest.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>

@@ -6,6 +6,7 @@
 #include <RW_segmentation/Potentials.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/walk/Graph_walk.h>
+#include <RW_segmentation/internal/walk/Walk_network.h>
 #include <RW_segmentation/internal/walk/seeded_components.h>
 
 #include <algorithm>
