@@ -51,10 +51,10 @@ inline Dual_graph parallel_ways(std::size_t number_of_clusters, std::vector<Clus
 /// Connected clusters of faces with the network of conductances between them: a small stand-in for the dual graph of a
 /// large mesh.
 ///
-/// Roots are chosen one after the other, none within a few steps of an earlier one; a flood from all of them at once
-/// gives each face to a root that is nearest in steps. Neither crosses an edge over which a walk hardly goes. An edge
-/// between two clusters lies on a way from root to root, whose resistances add up; ways between the same two are
-/// parallel.
+/// Roots are chosen one after the other, none within a few steps of an earlier one. Each floods the faces around it that
+/// are nearer to it than to the earlier ones, so that in the end each face belongs to the root nearest in steps. No flood
+/// crosses an edge over which a walk hardly goes. An edge between two clusters lies on a way from root to root, whose
+/// resistances add up; ways between the same two are parallel.
 struct Face_clusters {
   using Index = Dual_graph::Index;
 
@@ -74,60 +74,46 @@ struct Face_clusters {
   Face_clusters(const Dual_graph& faces, const std::vector<double>& face_conductances,
                 const std::vector<char>& is_crossed, std::size_t steps, const std::vector<Index>& alone,
                 const std::vector<Index>& order = {}) {
-    choose_roots(faces, is_crossed, steps, alone, order);
-    flood(faces, face_conductances, is_crossed, alone.size());
+    grow(faces, face_conductances, is_crossed, steps, alone, order);
     join_clusters(faces, face_conductances);
   }
 
  private:
   static constexpr Index none = std::numeric_limits<Index>::max();
 
-  void choose_roots(const Dual_graph& faces, const std::vector<char>& is_crossed, std::size_t steps,
-                    const std::vector<Index>& alone, const std::vector<Index>& order) {
+  /// Gives each face to the root nearest in steps, of several to the first one. Of the ways in as few steps, that of the
+  /// least resistance counts, which does not depend on the order of the faces. Clusters of `alone` do not grow.
+  void grow(const Dual_graph& faces, const std::vector<double>& face_conductances, const std::vector<char>& is_crossed,
+            std::size_t steps, const std::vector<Index>& alone, const std::vector<Index>& order) {
     root = alone;
-    of_face.assign(faces.number_of_faces(), none);  // for now the last root that has reached the face
-    for (Index c = 0; c < root.size(); ++c) of_face[root[c]] = c;
-    std::vector<Index> ball;
+    of_face.assign(faces.number_of_faces(), none);
+    resistance.assign(faces.number_of_faces(), 0.);
+    std::vector<Index> step(faces.number_of_faces(), none);  // from the root of the cluster
+    for (Index c = 0; c < root.size(); ++c) {
+      of_face[root[c]] = c;
+      step[root[c]] = 0;
+    }
+    std::vector<Index> flooded;
     for (Index i = 0; i < faces.number_of_faces(); ++i) {
       const Index face = order.empty() ? i : order[i];
       if (of_face[face] != none) continue;
-      const auto number = static_cast<Index>(root.size());
+      const auto cluster = static_cast<Index>(root.size());
       root.push_back(face);
-      of_face[face] = number;
-      ball.assign(1, face);
-      std::size_t next = 0;
-      for (std::size_t step = 0; step < steps; ++step)
-        for (const std::size_t end = ball.size(); next < end; ++next)
-          for (const auto& [neighbour, edge] : faces.neighbours(ball[next])) {
-            Index& reached_from = of_face[neighbour];
-            const bool is_alone = reached_from < alone.size();
-            if (!is_crossed[edge] || reached_from == number || is_alone) continue;
-            reached_from = number;
-            ball.push_back(neighbour);
+      of_face[face] = cluster;
+      step[face] = 0;
+      flooded.assign(1, face);
+      for (std::size_t next = 0; next < flooded.size() && step[flooded[next]] < steps; ++next) {
+        const Index from = flooded[next], distance = step[from] + 1;
+        for (const auto& [to, edge] : faces.neighbours(from)) {
+          if (!is_crossed[edge] || distance > step[to]) continue;
+          if (distance < step[to]) {  // What lies behind a face that keeps its cluster is nearer to that, too.
+            of_face[to] = cluster;
+            step[to] = distance;
+            resistance[to] = resistance[from] + 1 / face_conductances[edge];
+            flooded.push_back(to);
+          } else if (of_face[to] == cluster) {
+            resistance[to] = std::min(resistance[to], resistance[from] + 1 / face_conductances[edge]);
           }
-    }
-  }
-
-  /// Gives each face to a cluster. The first ones do not grow. Of the ways in as few steps, that of the least resistance
-  /// counts, which does not depend on the order of the faces.
-  void flood(const Dual_graph& faces, const std::vector<double>& face_conductances, const std::vector<char>& is_crossed,
-             std::size_t number_alone) {
-    of_face.assign(faces.number_of_faces(), none);
-    resistance.assign(faces.number_of_faces(), 0.);
-    std::vector<Index> reached = root, step(faces.number_of_faces(), 0);
-    reached.reserve(faces.number_of_faces());
-    for (std::size_t c = 0; c < root.size(); ++c) of_face[root[c]] = static_cast<Index>(c);
-    for (std::size_t next = number_alone; next < reached.size(); ++next) {
-      const Index face = reached[next];
-      for (const auto& [neighbour, edge] : faces.neighbours(face)) {
-        if (!is_crossed[edge]) continue;
-        if (of_face[neighbour] == none) {
-          of_face[neighbour] = of_face[face];
-          step[neighbour] = step[face] + 1;
-          resistance[neighbour] = resistance[face] + 1 / face_conductances[edge];
-          reached.push_back(neighbour);
-        } else if (of_face[neighbour] == of_face[face] && step[neighbour] == step[face] + 1) {
-          resistance[neighbour] = std::min(resistance[neighbour], resistance[face] + 1 / face_conductances[edge]);
         }
       }
     }
