@@ -248,9 +248,10 @@ Automatic_segmentation with_seedings(std::size_t seedings, Automatic_segmentatio
   return policy;
 }
 
-Automatic_segmentation with_reduced_walk() {
+/// \param largest_direct 0 runs every walk over clusters
+Automatic_segmentation with_largest_direct(std::size_t largest_direct) {
   Automatic_segmentation policy;
-  policy.reduction.largest_direct = 0;
+  policy.reduction.largest_direct = largest_direct;
   return policy;
 }
 
@@ -344,7 +345,8 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
       {"paper", [](const Subject& s) { return by_walks(s, Paper_segmentation()); }},
       {"paper_count", [](const Subject& s) { return by_walks(s, Paper_segmentation(typical_number_of_segments(s))); }},
       {"coarse", by_coarse_seeds},
-      {"clusters", [](const Subject& s) { return by_walks(s, with_reduced_walk()); }},
+      {"clusters", [=](const Subject& s) { return automatically(s, with_largest_direct(0), folds); }},
+      {"direct", [=](const Subject& s) { return automatically(s, with_largest_direct(num_faces(s.mesh)), folds); }},
       {"collapse",
        [](const Subject& s) {
          Mesh copy = s.mesh;
@@ -574,8 +576,8 @@ int main(int argc, char* argv[]) {
                             ->capture_default_str();
   app.add_option("--noise", changes.noise, "displace the vertices, in percent of the diagonal")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--faces", changes.faces, "factor for the number of faces: 4, 1 or less than 1")
-      ->check(CLI::Range(0.01, 4.));
+  app.add_option("--faces", changes.faces, "factor for the number of faces: a power of 4, or less than 1")
+      ->check(CLI::Range(0.01, 256.));
   app.add_option("--threads", threads, "meshes at once; times are then those of a busy machine")
       ->check(CLI::Range(1, 1024));
   auto* fold_option =
@@ -590,7 +592,6 @@ int main(int argc, char* argv[]) {
   CLI11_PARSE(app, argc, argv);
 
   try {
-    if (changes.faces > 1 && changes.faces != 4) throw std::invalid_argument("--faces must be 4 or at most 1");
     const auto numbers =
         meshes.empty() ? numbers_in_folder(std::filesystem::path(data) / "data" / "off") : numbers_in_file(meshes);
     if (numbers.empty()) throw std::runtime_error(data + ": no meshes");

@@ -157,13 +157,12 @@ int main(int argc, char* argv[]) {
   app.add_option("--meshes", meshes, "file with the numbers of the meshes; default: all in the folder");
   app.add_option("--noise", changes.noise, "displace the vertices, in percent of the diagonal")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--faces", changes.faces, "factor for the number of faces: 4, 1 or less than 1")
-      ->check(CLI::Range(0.01, 4.));
+  app.add_option("--faces", changes.faces, "factor for the number of faces: a power of 4, or less than 1")
+      ->check(CLI::Range(0.01, 256.));
   app.add_option("--output", output, "file that is written")->required();
   CLI11_PARSE(app, argc, argv);
 
   try {
-    if (changes.faces > 1 && changes.faces != 4) throw std::invalid_argument("--faces must be 4 or at most 1");
     const auto numbers =
         meshes.empty() ? numbers_in_folder(std::filesystem::path(data) / "data" / "off") : numbers_in_file(meshes);
     if (numbers.empty()) throw std::runtime_error(data + ": no meshes");

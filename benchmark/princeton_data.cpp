@@ -72,6 +72,16 @@ void add_noise(Mesh& mesh, double percent, std::size_t random_seed) {
   }
 }
 
+/// How many times each face is split in four, so that there are so many times as many.
+int splits_in_four(double factor) {
+  int splits = 0;
+  double times = 1;
+  for (; times < factor; times *= 4) ++splits;
+  if (factor > 1 && times != factor)
+    throw std::invalid_argument("the factor of faces must be a power of 4 or at most 1");
+  return splits;
+}
+
 /// The mesh with each face split in four, and the middle ones of these.
 std::pair<Mesh, std::vector<Face>> split_in_four(const Mesh& mesh) {
   Mesh fine;
@@ -145,12 +155,15 @@ Subject read_subject(const std::filesystem::path& data, std::size_t number, cons
   subject.number = number;
   subject.mesh = measurement::read_mesh((data / "data" / "off" / (name + ".off")).string());
   subject.people = read_people(data / "data" / "seg" / "Benchmark" / name, num_faces(subject.mesh));
-  if (changes.faces == 4)
-    std::tie(subject.mesh, subject.nearest) = split_in_four(subject.mesh);
-  else if (changes.faces < 1)
+  if (changes.faces < 1)
     std::tie(subject.mesh, subject.nearest) = simplified(subject.mesh, changes.faces);
   else
     subject.nearest.assign(faces(subject.mesh).begin(), faces(subject.mesh).end());
+  for (int splits = splits_in_four(changes.faces); splits > 0; --splits) {
+    auto [fine, middle] = split_in_four(subject.mesh);
+    for (Face& f : subject.nearest) f = middle[f];
+    subject.mesh = std::move(fine);
+  }
   if (changes.noise > 0) add_noise(subject.mesh, changes.noise, number);
   return subject;
 }

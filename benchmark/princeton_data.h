@@ -43,7 +43,7 @@ std::vector<std::size_t> numbers_in_file(const std::string& path);
 
 struct Changes {
   double noise = 0;  // standard deviation of each coordinate, percent of the diagonal of the bounding box
-  double faces = 1;  // factor
+  double faces = 1;  // factor: a power of 4, or less than 1
 };
 
 /// Of the bounding box.
@@ -58,7 +58,7 @@ struct Edge_ratio_stop {
   }
 };
 
-/// \throws std::runtime_error if a file is missing or is not what it should be.
+/// \throws std::runtime_error if a file is missing or is not what it should be, std::invalid_argument for another factor
 Subject read_subject(const std::filesystem::path& data, std::size_t number, const Changes& changes);
 
 }  // namespace princeton
