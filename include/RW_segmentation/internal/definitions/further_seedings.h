@@ -113,8 +113,8 @@ inline Dual_graph graph_in_first_fragments(const Common_refinement& pieces, cons
   return parallel_ways(pieces.fragments_of.size(), std::move(ways), conductances);
 }
 
-/// Joins each small piece to the piece of the same fragment of the first seeding to which most conductance leads, and
-/// returns for each piece the largest one of those that it is joined with.
+/// Joins each small piece, and each small set of joined ones, to the neighbour in the same fragment of the first seeding to
+/// which most conductance leads. Returns for each piece the largest one of its set.
 /// \param area of each piece
 /// \param least what is smaller is joined
 inline std::vector<std::size_t> join_small_pieces(const Dual_graph& graph, const std::vector<double>& conductances,
@@ -123,22 +123,26 @@ inline std::vector<std::size_t> join_small_pieces(const Dual_graph& graph, const
   std::iota(by_area.begin(), by_area.end(), std::size_t(0));
   std::stable_sort(by_area.begin(), by_area.end(), [&](std::size_t a, std::size_t b) { return area[a] < area[b]; });
   std::vector<double> area_of_set = area;
+  std::vector<std::vector<std::size_t>> pieces_of_set(area.size());
+  for (const std::size_t piece : by_area) pieces_of_set[piece].push_back(piece);
   boost::disjoint_sets_with_storage<> sets(area.size());
   for (const std::size_t piece : by_area) {
     const std::size_t set = sets.find_set(piece);
     if (area_of_set[set] >= least) continue;
     double most = 0;
     std::size_t best = set;
-    for (const auto& [neighbour, edge] : graph.neighbours(static_cast<Dual_graph::Index>(piece))) {
-      const std::size_t other = sets.find_set(neighbour);
-      if (other == set || conductances[edge] <= most) continue;
-      most = conductances[edge];
-      best = other;
-    }
+    for (const std::size_t member : pieces_of_set[set])
+      for (const auto& [neighbour, edge] : graph.neighbours(static_cast<Dual_graph::Index>(member))) {
+        const std::size_t other = sets.find_set(neighbour);
+        if (other == set || conductances[edge] <= most) continue;
+        most = conductances[edge];
+        best = other;
+      }
     if (best == set) continue;
-    const double joined = area_of_set[set] + area_of_set[best];
     sets.link(set, best);
-    area_of_set[sets.find_set(set)] = joined;
+    const std::size_t joined = sets.find_set(set), added = joined == set ? best : set;
+    area_of_set[joined] += area_of_set[added];
+    pieces_of_set[joined].insert(pieces_of_set[joined].end(), pieces_of_set[added].begin(), pieces_of_set[added].end());
   }
   std::vector<std::size_t> largest_of_set(area.size()), largest(area.size());
   for (const std::size_t piece : by_area) largest_of_set[sets.find_set(piece)] = piece;
