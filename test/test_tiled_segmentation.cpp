@@ -113,6 +113,7 @@ Labels segments_of_whole(const Shape& shape, std::size_t segments) {
   auto mesh = meshes::surface_mesh(shape);
   const auto ids = mesh.add_property_map<meshes::Surface_mesh::Face_index, std::size_t>("f:id").first;
   Automatic_segmentation policies(segments);
+  policies.reduction = Tiled_segmentation().reduction;
   policies.reduction.largest_direct = 0;
   segmentation_via_random_walks(mesh, ids, policies);
   return {ids.begin(), ids.end()};
@@ -278,9 +279,9 @@ TEST(TiledSegmentation, NormalsOfATileAreThoseOfTheWhole) {
     EXPECT_GT(of_tile.halo.size(), 0U);
     for (std::size_t f = 0; f < mesh.place.size(); ++f) {
       if (mesh.place[f].first != t) continue;
-      const Eigen::Vector3d& tiled = of_tile.mesh.shape_normals()[mesh.place[f].second];
+      const Eigen::Vector3d tiled = of_tile.mesh.shape_normal(static_cast<Index>(mesh.place[f].second));
       const Index face = whole.index(meshes::Surface_mesh::Face_index(static_cast<unsigned>(f)));
-      EXPECT_LE((tiled - whole.shape_normals()[face]).norm(), largest_turn);
+      EXPECT_LE((tiled - whole.shape_normal(face)).norm(), largest_turn);
     }
   }
 }

@@ -28,6 +28,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <set>
@@ -111,6 +112,61 @@ TEST(FaceClusters, RootsKeepTheirDistanceAndLeaveNoFaceFartherOff) {
   std::vector<Index> reached = clusters.root;
   internal::add_surroundings(graph, steps, reached);
   EXPECT_EQ(reached.size(), graph.number_of_faces());
+}
+
+/// How many steps over edges that may be crossed lead from a face to each other one; -1 where none do.
+std::vector<int> steps_from(Index face, const Dual_graph& graph, const std::vector<char>& is_crossed) {
+  std::vector<int> steps(graph.number_of_faces(), -1);
+  steps[face] = 0;
+  std::vector<Index> reached = {face};
+  for (std::size_t next = 0; next < reached.size(); ++next)
+    for (const auto& [neighbour, edge] : graph.neighbours(reached[next])) {
+      if (!is_crossed[edge] || steps[neighbour] >= 0) continue;
+      steps[neighbour] = steps[reached[next]] + 1;
+      reached.push_back(neighbour);
+    }
+  return steps;
+}
+
+/// The least resistance of ways from a face that take as few steps as can be, by face.
+std::vector<double> resistances_from(Index face, const std::vector<int>& steps, const Dual_graph& graph,
+                                     const std::vector<char>& is_crossed, const std::vector<double>& conductances) {
+  std::vector<double> least(graph.number_of_faces(), std::numeric_limits<double>::infinity());
+  least[face] = 0;
+  for (int step = 1; step <= *std::max_element(steps.begin(), steps.end()); ++step)
+    for (Index f = 0; f < least.size(); ++f) {
+      if (steps[f] != step) continue;
+      for (const auto& [neighbour, edge] : graph.neighbours(f))
+        if (is_crossed[edge] && steps[neighbour] == step - 1)
+          least[f] = std::min(least[f], least[neighbour] + 1 / conductances[edge]);
+    }
+  return least;
+}
+
+TEST(FaceClusters, AFaceBelongsToTheNearestRootOverTheLeastResistance) {
+  const Dual_graph graph = networks::triangulated_torus(16);
+  const std::vector<double> conductances = random_conductances(graph);
+  std::vector<char> is_crossed = all_crossed(graph);
+  std::mt19937 random(2);
+  for (char& crossed : is_crossed) crossed = random() % 6 != 0;
+  for (const std::size_t steps : {1U, 3U, 8U, 50U}) {
+    const Face_clusters clusters(graph, conductances, is_crossed, steps, {});
+    std::vector<int> fewest(graph.number_of_faces(), -1);
+    std::vector<Index> nearest(graph.number_of_faces());  // the first of several
+    std::vector<double> resistance(graph.number_of_faces());
+    for (Index c = 0; c < clusters.root.size(); ++c) {
+      const std::vector<int> from_root = steps_from(clusters.root[c], graph, is_crossed);
+      const auto resistances = resistances_from(clusters.root[c], from_root, graph, is_crossed, conductances);
+      for (Index f = 0; f < graph.number_of_faces(); ++f) {
+        if (from_root[f] < 0 || (fewest[f] >= 0 && fewest[f] <= from_root[f])) continue;
+        fewest[f] = from_root[f];
+        nearest[f] = c;
+        resistance[f] = resistances[f];
+      }
+    }
+    EXPECT_EQ(clusters.of_face, nearest) << steps << " steps";
+    for (Index f = 0; f < graph.number_of_faces(); ++f) EXPECT_NEAR(clusters.resistance[f], resistance[f], 1e-12);
+  }
 }
 
 TEST(FaceClusters, FacesToBeLeftAloneAreTheFirstClusters) {
@@ -197,8 +253,10 @@ TEST(WalkReduction, FindsTheSegmentsOfTheDirectWalk) {
   for (const auto& [shape, segments] : {std::pair(meshes::two_spheres_with_neck(2.4, 0.3, 96), std::size_t(3)),
                                         std::pair(meshes::two_spheres_with_neck(2.0001, 0.2, 64), std::size_t(2))}) {
     const auto mesh = meshes::surface_mesh(shape);
+    Automatic_segmentation over_clusters = reduced(segments);
+    over_clusters.reduction.cluster_steps = 3;  // The faces around seeds that are clusters by themselves are few then.
     const Result direct = segmented(mesh, Automatic_segmentation(segments)),
-                 by_clusters = segmented(mesh, reduced(segments));
+                 by_clusters = segmented(mesh, over_clusters);
     EXPECT_EQ(direct.report.clusters, 0u);
     EXPECT_GT(by_clusters.report.clusters, by_clusters.report.fragments);
     EXPECT_LT(by_clusters.report.clusters, num_faces(mesh) / 3);
@@ -283,8 +341,8 @@ TEST(WalkFragments, AreMadeByAnySolver) {
 TEST(WalkReduction, ClustersGrowWithLargeMeshesAlone) {
   const Walk_reduction reduction;
   EXPECT_EQ(internal::cluster_steps(10, reduction), reduction.cluster_steps);
-  EXPECT_EQ(internal::cluster_steps(2500000, reduction), reduction.cluster_steps);
-  EXPECT_EQ(internal::cluster_steps(10000000, reduction), 2 * reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(600000, reduction), reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(2400000, reduction), 2 * reduction.cluster_steps);
 }
 
 TEST(WalkReduction, AMeshOfFewFacesIsSegmentedToo) {

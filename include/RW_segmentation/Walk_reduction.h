@@ -17,15 +17,15 @@ struct Walk_reduction {
   /// time at 153 and 612 thousand faces (`benchmark_scaling`), and agree with people as well (`benchmark_princeton --faces 4
   /// --method clusters`).
   std::size_t largest_direct = 100000;
-  /// The least distance between the roots of two clusters, in steps from face to face, on meshes of up to 2.5 million
-  /// faces; grows with the square root of their number from there on, so that the number of clusters does not. With 3
-  /// steps a cluster has about 5 triangles.
-  std::size_t cluster_steps = 3;
+  /// The least distance between the roots of two clusters, in steps from face to face, on meshes of up to 600 thousand
+  /// faces; grows with the square root of their number from there on, so that the number of clusters hardly does. With 6
+  /// steps a cluster has about 20 triangles where nothing keeps it from growing.
+  std::size_t cluster_steps = 6;
   /// The largest d / sigma of an edge within a cluster: no cluster reaches over a larger one.
   double largest_difference = 2;
   /// How wide the band along a boundary is that is walked on again, in clusters to either side; 0 leaves the boundaries
   /// on those of the clusters.
-  std::size_t band = 2;
+  std::size_t band = 1;
 };
 
 namespace internal {

@@ -147,7 +147,7 @@ inline void add_surroundings(const Dual_graph& graph, std::size_t steps, std::ve
 
 /// The least distance between the roots of clusters. Clusters of larger meshes hold more faces, lest their number grow.
 inline std::size_t cluster_steps(std::size_t faces, const Walk_reduction& reduction) {
-  constexpr double large = 2.5e6;
+  constexpr double large = 6e5;
   const double growth = std::sqrt(std::max(1., static_cast<double>(faces) / large));
   return static_cast<std::size_t>(std::llround(growth * static_cast<double>(reduction.cluster_steps)));
 }
