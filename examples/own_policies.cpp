@@ -49,7 +49,7 @@ struct Valley_depth {
     std::vector<double> depth(mesh.number_of_edges());
     for (Index edge = 0; edge < depth.size(); ++edge) {
       const auto [i, j] = mesh.graph().faces_of(edge);
-      const Eigen::Vector3d turn = mesh.shape_normals()[j] - mesh.shape_normals()[i];
+      const Eigen::Vector3d turn = mesh.shape_normal(j) - mesh.shape_normal(i);
       depth[edge] = std::max(0., turn.dot(mesh.centroid(i) - mesh.centroid(j)));
     }
     const double sum = std::accumulate(depth.begin(), depth.end(), 0.);

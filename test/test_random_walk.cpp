@@ -162,8 +162,8 @@ TYPED_TEST(Walk, StepsOverNoConstrainedEdge) {
   const Dual_mesh_of<Mesh> dual(held.mesh);
   const auto is_wall = boost::make_function_property_map<edge_descriptor>([&](const edge_descriptor& e) {
     const auto index = [&](auto h) { return dual.index(face(h, held.mesh)); };
-    return dual.normals()[index(halfedge(e, held.mesh))] !=
-           dual.normals()[index(opposite(halfedge(e, held.mesh), held.mesh))];
+    return dual.normal(index(halfedge(e, held.mesh))) !=
+           dual.normal(index(opposite(halfedge(e, held.mesh), held.mesh)));
   });
   Face_labels<Mesh> labels(held.mesh);
   Random_walk walk(held.mesh, equal_conductances<Mesh>(), CGAL::parameters::edge_is_constrained_map(is_wall));
@@ -172,7 +172,7 @@ TYPED_TEST(Walk, StepsOverNoConstrainedEdge) {
   for (std::size_t f = 0; f < labels.values().size(); ++f)
     for (std::size_t g = 0; g < f; ++g)
       EXPECT_EQ(labels.values()[f] == labels.values()[g],
-                dual.normals()[dual.index(labels.face(f))] == dual.normals()[dual.index(labels.face(g))]);
+                dual.normal(dual.index(labels.face(f))) == dual.normal(dual.index(labels.face(g))));
 }
 
 // ---- Arguments ----

@@ -461,7 +461,7 @@ TEST(FaceRefinement, KeepsTheSurfaceAndEndsAtTheLongestSide) {
       for (const double side : {(b - a).norm(), (c - b).norm(), (a - c).norm()}) EXPECT_LE(side, longest_side);
       const Dual_mesh::Index f = refinement.faces()[t];
       area[f] += (b - a).cross(c - a).dot(dual.normal(f)) / 2;
-      EXPECT_EQ(refined.shape_normals()[t], dual.normal(f));
+      EXPECT_EQ(refined.shape_normal(t), dual.normal(f));
     }
     for (Dual_mesh::Index f = 0; f < area.size(); ++f) EXPECT_NEAR(area[f], dual.area(f), 1e-12);
     EXPECT_EQ(2 * refined.number_of_edges(), 3 * refined.number_of_faces());  // closed

@@ -5,8 +5,11 @@
 
 #include <RW_segmentation/Conductance.h>
 #include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Progress.h>
 #include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/integral_invariant_curvatures.h>
+#include <RW_segmentation/internal/mesh/Face_diffusion.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
@@ -15,6 +18,8 @@
 #endif
 
 #include <boost/property_map/property_map.hpp>
+
+#include <Eigen/Core>
 
 #include <gtest/gtest.h>
 #include "face_labels.h"
@@ -141,6 +146,17 @@ TEST(Threads, OfTbbDoNotChangeTheSurfacesOfAMachinePart) {
     Face_labels<Surface_mesh> labels(mesh);
     segmentation_into_surfaces(mesh, labels.map());
     return labels.values();
+  });
+}
+
+TEST(Threads, OfTbbDoNotChangeNormalsThatAreSmoothedInStretches) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::with_noise(meshes::sphere(4), 0.01));
+  const Dual_mesh_of dual(mesh);
+  const auto own = [&](Dual_mesh::Index f) { return dual.normal(f); };
+  expect_the_same_with_threads_of_tbb<std::vector<Eigen::Vector3d>>([&] {
+    constexpr std::size_t shortest_stretch = 200;
+    internal::Face_diffusion diffusion(dual, 0.01 * dual.total_area(), shortest_stretch);
+    return diffusion.solve(own, own, 1e-4, Progress());
   });
 }
 

@@ -39,9 +39,9 @@ std::vector<Face_label> placed_seeds(const Dual& shape, const std::vector<double
 Segmentation segment_from_seeds(const Dual& mesh, std::vector<Face_label> seeds, const Options& options,
                                 const Policies& policies, Stages& stages) {
   namespace RW = RW_segmentation;
-  const auto normals =
-      RW::smoothed_shape(mesh, policies.smoothing, CGAL::parameters::callback(stages.start("normals"))).shape_normals();
-  const Dual shape(mesh.with_shape_normals(normals), mesh);
+  const Dual smoothed =
+      RW::smoothed_shape(mesh, policies.smoothing, CGAL::parameters::callback(stages.start("normals")));
+  const Dual shape(mesh.with_shape_normals_of(smoothed), mesh);
 
   const RW::Progress progress(stages.start("conductances"));
   const std::vector<double> difference = policies.difference(shape, progress);

@@ -99,7 +99,7 @@ class Analytic_surface_cost {
 
   /// \cond  For stages that know the tolerance
   Analytic_surface_cost(const Dual_mesh& mesh, internal::Surface_tolerance tolerance, std::size_t most_samples = 80)
-      : mesh_(mesh),
+      : mesh_(internal::with_stored_normals(mesh)),
         tolerance_(std::make_shared<const internal::Surface_tolerance>(std::move(tolerance))),
         most_samples_(most_samples) {}
   /// \endcond
@@ -122,7 +122,7 @@ class Analytic_surface_cost {
  private:
   static constexpr double impossible = 1e12;  // a cost above all others
 
-  bool has_normal(Dual_mesh::Index face) const { return !mesh_.shape_normals()[face].isZero(); }
+  bool has_normal(Dual_mesh::Index face) const { return !mesh_.shape_normal(face).isZero(); }
 
   /// How far a region is from the surface of another one that is beyond doubt, in squared expected deviations; 0 if it
   /// is in doubt. Spares most fits.

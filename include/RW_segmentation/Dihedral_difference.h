@@ -36,7 +36,7 @@ struct Dihedral_difference_policy {
   /// once more. Slight concavities are everywhere on a living shape and tell nothing about where its parts meet.
   double ordinary_difference = 0;
 
-  /// Eq. 4 and 5 for the `shape_normals()` of a mesh.
+  /// Eq. 4 and 5 for the `shape_normal()` of the faces of a mesh.
   /// \returns the difference of each edge
   /// \throws std::invalid_argument if a number is out of range
   /// Complexity: linear.

@@ -45,7 +45,7 @@ namespace RW_segmentation {
 /// Faces, edges and vertices are numbered from 0. Edges are those between two different faces; the mesh's border is none.
 /// Walls are edges that no stage crosses: no seed distance, walk, merge or surface.
 ///
-/// Memory: about 120 bytes a triangle.
+/// Memory: about 100 bytes a triangle.
 class Dual_mesh {
  public:
   /// Numbers of faces, edges and vertices.
@@ -87,18 +87,18 @@ class Dual_mesh {
   /// By vertex.
   const std::vector<Eigen::Vector3d>& points() const { return *points_; }
 
-  /// By face: the outward normal of unit length, zero for a face without area.
-  const std::vector<Eigen::Vector3d>& normals() const { return geometry_->normal; }
-  /// By face: the normal of the shape that the mesh stands for, as `smoothed_shape()` sees it; the face's own otherwise.
-  const std::vector<Eigen::Vector3d>& shape_normals() const { return *shape_normals_; }
   /// By face.
   const std::vector<double>& areas() const { return geometry_->area; }
   /// By edge.
   const std::vector<double>& edge_lengths() const { return geometry_->edge_length; }
   /// The mean of the corners of a face.
   Eigen::Vector3d centroid(Index face) const { return internal::centroid_of(*points_, corners(face)); }
-  /// See `normals()`.
-  const Eigen::Vector3d& normal(Index face) const { return geometry_->normal[face]; }
+  /// The outward normal of a face, of unit length; zero if it has no area. It is not stored but computed.
+  Eigen::Vector3d normal(Index face) const;
+  /// The normal of the shape that the mesh stands for, as `smoothed_shape()` sees it; the face's own otherwise.
+  Eigen::Vector3d shape_normal(Index face) const { return shape_normals_ ? (*shape_normals_)[face] : normal(face); }
+  /// Whether the normals of the shape are stored: 24 bytes a face.
+  bool has_shape_normals() const { return shape_normals_ != nullptr; }
   /// The area of a face.
   double area(Index face) const { return geometry_->area[face]; }
   /// The length of an edge.
@@ -127,6 +127,8 @@ class Dual_mesh {
   /// This mesh with other normals of its shape.
   /// \param normals by face, of unit length or zero
   Dual_mesh with_shape_normals(std::vector<Eigen::Vector3d> normals) const;
+  /// This mesh with the normals of the shape of another one that has as many faces; they are shared.
+  Dual_mesh with_shape_normals_of(const Dual_mesh& other) const;
 
   /// This mesh with its vertices elsewhere.
   /// \param points by vertex, in the unit box, which stays what it is
@@ -143,7 +145,7 @@ class Dual_mesh {
   double area_of_whole_ = 0;
   std::shared_ptr<const Arrays> arrays_;
   std::shared_ptr<const internal::Face_geometry> geometry_;
-  std::shared_ptr<const std::vector<Eigen::Vector3d>> points_, shape_normals_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> points_, shape_normals_;  // without the latter: the faces' own
 };
 
 namespace internal {
@@ -160,6 +162,12 @@ std::size_t first_not_finite(const std::vector<Eigen::Vector3d>& vectors);
 /// What is thrown for coordinates that are not finite, of the vertex or the normal of the face at a place.
 std::invalid_argument point_error(std::size_t place);
 std::invalid_argument normal_error(std::size_t place, const Eigen::Vector3d& normal);
+
+/// The faces' own normals.
+std::vector<Eigen::Vector3d> own_normals(const Dual_mesh& mesh);
+
+/// A mesh with the normals of its shape stored, for work that asks for each of them many times.
+Dual_mesh with_stored_normals(const Dual_mesh& mesh);
 
 /// Divides vectors by their lengths; zero vectors stay zero.
 void normalize(std::vector<Eigen::Vector3d>& vectors);

@@ -66,7 +66,7 @@ Dual_mesh shape_of(const Dual_mesh& mesh, const Normal_smoothing& smoothing, con
 
 }  // namespace internal
 
-/// The shape that a mesh stands for, as the automatic segmentation sees it: its `shape_normals()` are smoothed, and under
+/// The shape that a mesh stands for, as the automatic segmentation sees it: its `shape_normal()` is smoothed, and under
 /// heavy noise its points as well. What `smoothed_face_normals()` writes, as a mesh for the stages that follow.
 ///
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
@@ -135,8 +135,8 @@ void smoothed_face_normals(const FaceListGraph& mesh, FaceNormalMap normals, con
   using Vector = typename boost::property_traits<FaceNormalMap>::value_type;
 
   const auto shape = smoothed_shape<ConcurrencyTag>(mesh, smoothing, np);
-  for (std::size_t f = 0; f < shape.number_of_faces(); ++f) {
-    const Eigen::Vector3d& n = shape.shape_normals()[f];
+  for (Dual_mesh::Index f = 0; f < shape.number_of_faces(); ++f) {
+    const Eigen::Vector3d n = shape.shape_normal(f);
     put(normals, shape.face_descriptors()[f], Vector(n[0], n[1], n[2]));
   }
 }

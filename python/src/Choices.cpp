@@ -87,7 +87,7 @@ Walk_ground walk_ground(const Mesh& mesh, const Dual& dual, const segment_mesh::
   if (!conductance.empty() && !needs_difference) return ground;
   const auto smoothed =
       RW::smoothed_shape(dual, policies.smoothing, CGAL::parameters::callback(part(callback, 0, 0.5)));
-  ground.shape = Dual(dual.with_shape_normals(smoothed.shape_normals()), dual);
+  ground.shape = Dual(dual.with_shape_normals_of(smoothed), dual);
   ground.difference = policies.difference(ground.shape, RW::Progress(part(callback, 0.5, 1)));
   if (!conductance.empty()) return ground;
   std::vector<double> by_edge(num_edges(mesh.halfedges()), 0.);

@@ -116,7 +116,7 @@ Table<double> smoothed_normals(const Mesh& mesh, double smoothing, const nb::obj
                                  for (Index f = 0; f < shape.number_of_faces(); ++f)
                                    for (int i = 0; i < 3; ++i)
                                      rows[3 * std::size_t(shape.face(f).idx()) + static_cast<std::size_t>(i)] =
-                                         shape.shape_normals()[f][i];
+                                         shape.shape_normal(f)[i];
                                  return mesh.by_user_face<double>(rows, 3);
                                }),
                   3);

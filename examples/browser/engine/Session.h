@@ -142,7 +142,7 @@ class Session {
   void prepare(double convex_weight, double sigma) {
     namespace RW = RW_segmentation;
     const RW::Dual_mesh_of dual(mesh(), CGAL::parameters::edge_is_constrained_map(walls_));
-    const RW::Dual_mesh_of shape(dual.with_shape_normals(RW::smoothed_shape(dual).shape_normals()), dual);
+    const RW::Dual_mesh_of shape(dual.with_shape_normals_of(RW::smoothed_shape(dual)), dual);
     const RW::Dihedral_difference difference(shape, convex_weight, RW::Dihedral_measure::angle);
     Walk walk(dual, RW::Conductance(shape, difference, sigma));
     if (walk_)

@@ -213,12 +213,14 @@ class Tile_steps {
         RW::shape_of_tile(read<RW::Tile>("tile", tile), {tile, plan},
                           read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
     RW::internal::Face_corners corners;
+    std::vector<Eigen::Vector3d> normals;
     for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
       for (const auto v : shape.mesh.corners(f)) corners.add(v);
       corners.end_face();
+      normals.push_back(shape.mesh.shape_normal(f));
     }
-    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), shape.mesh.shape_normals(),
-               shape.own_faces, shape.halo, shape.shared_edges);
+    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), normals, shape.own_faces, shape.halo,
+               shape.shared_edges);
     write_step(path_of_tile("outline", tile), "outline", outline);
   }
 

@@ -121,7 +121,7 @@ RW_SEGMENTATION_INLINE Surface_samples Analytic_surface_cost::samples_of(const R
   region.vertices.for_each([&](Dual_mesh::Index v) { samples.points.push_back(mesh_.point(v)); });
   region.faces.for_each([&](Dual_mesh::Index f) {
     samples.normal_points.push_back(mesh_.centroid(f));
-    samples.normals.push_back(mesh_.shape_normals()[f]);
+    samples.normals.push_back(mesh_.shape_normal(f));
   });
   return samples;
 }
@@ -140,7 +140,7 @@ RW_SEGMENTATION_INLINE double Analytic_surface_cost::normal_term(const Analytic_
   return internal::with_type_of(surface, [&](const auto& s) {
     double outward = 0, squares[2] = {0, 0}, count = 0;
     region.faces.for_each([&](Dual_mesh::Index f) {
-      const Eigen::Vector3d n = s.normal(mesh_.centroid(f)), &own = mesh_.shape_normals()[f];
+      const Eigen::Vector3d n = s.normal(mesh_.centroid(f)), own = mesh_.shape_normal(f);
       outward += n.dot(own);
       const double square = tolerance_->normal_angle[f] * tolerance_->normal_angle[f];
       squares[0] += (n + own).squaredNorm() / square;

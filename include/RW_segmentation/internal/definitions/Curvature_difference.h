@@ -38,7 +38,7 @@ RW_SEGMENTATION_INLINE std::vector<double> curvature_difference(const Dual_mesh&
   }
 
   constexpr double convex_weight = 1;
-  std::vector<double> d = Dihedral_difference_policy{convex_weight}(mesh.with_shape_normals(mesh.normals()));
+  std::vector<double> d = Dihedral_difference_policy{convex_weight}(mesh.with_shape_normals(own_normals(mesh)));
   const auto raise = [&](const std::vector<double>& term, double smallest_mean) {
     const double mean = robust_mean(term, mesh.edge_lengths());
     if (!(mean > smallest_mean)) return;

@@ -34,14 +34,14 @@ inline void divide_by_mean(std::vector<double>& d, double least_mean) {
 inline std::vector<double> weighted_angles(const Dual_mesh& mesh, double convex_weight, Dihedral_measure measure) {
   // |Ni - Nj|^2 of faces folded onto each other, up to 1e-6 radians: there only rounding tells convex from concave.
   constexpr double folded = 4 - 1e-12;
-  const std::vector<Eigen::Vector3d>& normals = mesh.shape_normals();
-  std::vector<double> d(mesh.number_of_edges());
+  const Dual_mesh shape = with_stored_normals(mesh);
+  std::vector<double> d(shape.number_of_edges());
   parallel_stretches(d.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      const auto [i, j] = mesh.graph().faces_of(static_cast<Dual_mesh::Index>(e));
-      const Eigen::Vector3d turn = normals[j] - normals[i];
-      if (normals[i].isZero(0) || normals[j].isZero(0)) continue;
-      const bool concave = turn.dot(mesh.centroid(j) - mesh.centroid(i)) < 0 && turn.squaredNorm() < folded;
+      const auto [i, j] = shape.graph().faces_of(static_cast<Dual_mesh::Index>(e));
+      const Eigen::Vector3d ni = shape.shape_normal(i), nj = shape.shape_normal(j), turn = nj - ni;
+      if (ni.isZero(0) || nj.isZero(0)) continue;
+      const bool concave = turn.dot(shape.centroid(j) - shape.centroid(i)) < 0 && turn.squaredNorm() < folded;
       const double eta = concave ? 1 : convex_weight;
       // |Ni - Nj|^2 / 2, because 1 - Ni.Nj would lose all digits on flat edges.
       d[e] = eta * (measure == Dihedral_measure::angle ? turn.norm() : turn.squaredNorm() / 2);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,43 +58,56 @@ RW_SEGMENTATION_INLINE void normalize(std::vector<Eigen::Vector3d>& vectors) {
   for (Eigen::Vector3d& vector : vectors) vector = unit_vector(vector);
 }
 
-/// Sets the normal and the area of a face.
-inline void measure_face(Face_geometry& geometry, std::size_t f, const std::vector<Eigen::Vector3d>& point,
-                         const Face_corners::Range& corners, double rounding) {
+RW_SEGMENTATION_INLINE Face_measures measures_of(const std::vector<Eigen::Vector3d>& point,
+                                                 const Face_corners::Range& corners, double rounding) {
   const Eigen::Vector3d& apex = point[corners[0]];
   Eigen::Vector3d area_vector = Eigen::Vector3d::Zero(), previous = area_vector;  // relative to the apex
-  double extent = 0;
+  double squared_extent = 0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     const Eigen::Vector3d corner = point[corners[k]] - apex;
     area_vector += previous.cross(corner) / 2;
-    extent = std::max(extent, corner.norm());
+    squared_extent = std::max(squared_extent, corner.squaredNorm());
     previous = corner;
   }
-  geometry.area[f] = area_vector.norm();
+  const double area = area_vector.norm();
   // A face that is no higher than its corners are exact has no direction.
-  const bool degenerate = !(geometry.area[f] > 4 * rounding * extent);
-  geometry.normal[f] = degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / geometry.area[f]);
+  const bool degenerate = !(area > 4 * rounding * std::sqrt(squared_extent));
+  return {degenerate ? Eigen::Vector3d::Zero() : Eigen::Vector3d(area_vector / area), area};
 }
 
 RW_SEGMENTATION_INLINE Face_geometry::Face_geometry(const std::vector<Eigen::Vector3d>& point,
                                                     const Face_corners& corners,
                                                     const std::vector<std::array<std::uint32_t, 2>>& edge_ends,
                                                     double rounding)
-    : normal(corners.number_of_faces()), area(corners.number_of_faces()), edge_length(edge_ends.size()) {
-  parallel_stretches(normal.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      measure_face(*this, f, point, corners[static_cast<std::uint32_t>(f)], rounding);
+    : area(corners.number_of_faces()), edge_length(edge_ends.size()) {
+  std::atomic<std::size_t> degenerate = 0;
+  parallel_stretches(area.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face_measures measures = measures_of(point, corners[static_cast<std::uint32_t>(f)], rounding);
+      area[f] = measures.area;
+      if (measures.normal.isZero(0)) ++degenerate;
+    }
   });
+  degenerate_faces = degenerate;
   parallel_stretches(edge_length.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) edge_length[e] = (point[edge_ends[e][1]] - point[edge_ends[e][0]]).norm();
   });
 
-  for (std::size_t f = 0; f < area.size(); ++f) {
-    total_area += area[f];
-    degenerate_faces += normal[f].isZero(0);
-  }
+  for (const double a : area) total_area += a;
   for (const double length : edge_length) mean_edge_length += length;
   if (!edge_length.empty()) mean_edge_length /= static_cast<double>(edge_length.size());
+}
+
+RW_SEGMENTATION_INLINE std::vector<Eigen::Vector3d> own_normals(const Dual_mesh& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.number_of_faces());
+  parallel_stretches(normals.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) normals[f] = mesh.normal(static_cast<Dual_mesh::Index>(f));
+  });
+  return normals;
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh with_stored_normals(const Dual_mesh& mesh) {
+  return mesh.has_shape_normals() ? mesh : mesh.with_shape_normals(own_normals(mesh));
 }
 
 }  // namespace internal
@@ -106,7 +120,10 @@ RW_SEGMENTATION_INLINE Dual_mesh::Dual_mesh(Arrays arrays, const internal::Unit_
       std::make_shared<const internal::Face_geometry>(arrays.points, arrays.corners, arrays.edge_ends, box_.rounding);
   arrays_ = std::make_shared<const Arrays>(std::move(arrays));
   points_ = {arrays_, &arrays_->points};
-  shape_normals_ = {geometry_, &geometry_->normal};
+}
+
+RW_SEGMENTATION_INLINE Eigen::Vector3d Dual_mesh::normal(Index face) const {
+  return internal::measures_of(*points_, corners(face), box_.rounding).normal;
 }
 
 RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_shape_normals(std::vector<Eigen::Vector3d> normals) const {
@@ -115,12 +132,18 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_shape_normals(std::vector<Eigen
   return result;
 }
 
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_shape_normals_of(const Dual_mesh& other) const {
+  Dual_mesh result = *this;
+  result.shape_normals_ = internal::with_stored_normals(other).shape_normals_;
+  return result;
+}
+
 RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_points(std::vector<Eigen::Vector3d> points) const {
   Dual_mesh result = *this;
   result.points_ = std::make_shared<const std::vector<Eigen::Vector3d>>(std::move(points));
   result.geometry_ = std::make_shared<const internal::Face_geometry>(*result.points_, arrays_->corners,
                                                                      arrays_->edge_ends, box_.rounding);
-  result.shape_normals_ = {result.geometry_, &result.geometry_->normal};
+  result.shape_normals_ = nullptr;
   return result;
 }
 

@@ -109,7 +109,7 @@ inline Boundary_shape shape_of_edge(const Dual_mesh& mesh, const Edge_concavity&
   const double length = mesh.edge_length(edge) / mesh.length_unit();
   const double excess = concavity.excess(edge), inward = concavity.inward_turn(edge);
   const auto [i, j] = mesh.graph().faces_of(edge);
-  const Eigen::Vector3d turn = mesh.shape_normals()[j] - mesh.shape_normals()[i];
+  const Eigen::Vector3d turn = mesh.shape_normal(j) - mesh.shape_normal(i);
   const auto [p, q] = mesh.ends(edge);
   const Eigen::Vector3d middle = (mesh.point(p) + mesh.point(q)) / (2 * mesh.length_unit());
 

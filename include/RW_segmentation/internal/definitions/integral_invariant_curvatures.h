@@ -98,7 +98,7 @@ std::vector<std::vector<Surface_curvatures>> curvatures_of_faces(const Dual_mesh
   };
   const auto make_worker = [&] {
     return [&, neighbourhood = Ball_neighbourhood(surface, mesh)](std::size_t f) mutable {
-      if (mesh.normals()[f].isZero(0)) return;
+      if (mesh.normal(static_cast<Dual_mesh::Index>(f)).isZero(0)) return;
       for (std::size_t i = 0; i < radii.size(); ++i) measure(neighbourhood, static_cast<Dual_mesh::Index>(f), i);
     };
   };

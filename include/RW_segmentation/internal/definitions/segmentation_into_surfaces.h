@@ -25,9 +25,10 @@ inline std::vector<double> conductances_beside_surfaces(const Dual_mesh& mesh) {
   return conductances(mesh, Dihedral_difference_policy{every_crease, Dihedral_measure::angle}(mesh), sigma, cap);
 }
 
-RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
+RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& given, double noise,
                                                                   const Progress& progress, Segmentation_report& report,
                                                                   Stage_clock& clock) {
+  const Dual_mesh mesh = with_stored_normals(given);
   const Surface_tolerance tolerance = surface_tolerance(mesh, noise);
   clock.note("noise");
   const Analytic_regions regions = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));

@@ -22,7 +22,7 @@ inline std::vector<Dual_mesh::Index> closest_faces(const Dual_mesh& mesh, const 
   parallel_stretches(closest.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const Eigen::Vector3d centroid = mesh.centroid(static_cast<Dual_mesh::Index>(f));
-      auto found = reduced.closest_face(centroid, mesh.normals()[f]);
+      auto found = reduced.closest_face(centroid, mesh.normal(static_cast<Dual_mesh::Index>(f)));
       if (!found) found = reduced.closest_face(centroid, Eigen::Vector3d::Zero());
       if (!found) throw std::invalid_argument("the reduced mesh has no face with an area");
       closest[f] = *found;

@@ -46,9 +46,20 @@ inline Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3d>& point, co
   return {apex[0] + sum[0] / size, apex[1] + sum[1] / size, apex[2] + sum[2] / size};
 }
 
-/// Normals and areas by face, lengths by edge, in the unit box.
+/// The normal of a face, of unit length, or zero if it has no area, and that area.
+struct Face_measures {
+  Eigen::Vector3d normal;
+  double area;
+};
+
+/// \param point by vertex, in the unit box
+/// \param rounding see `Unit_box`
+Face_measures measures_of(const std::vector<Eigen::Vector3d>& point, const Face_corners::Range& corners,
+                          double rounding);
+
+/// Areas by face, lengths by edge, in the unit box. Normals are not kept: they are read less often than 24 bytes a face
+/// would be worth.
 struct Face_geometry {
-  std::vector<Eigen::Vector3d> normal;  ///< unit length, or zero for a face without area
   std::vector<double> area;
   std::vector<double> edge_length;
   double total_area = 0;

@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SEEDS_FEATURE_SENSITIVE_METRIC_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/threads.h>
 
 #include <Eigen/Core>
 
@@ -27,26 +28,28 @@ class Feature_sensitive_metric {
   /// The face in six-dimensional space, (x, w n).
   Point point(Index f) const {
     Point p;
-    p << mesh_.centroid(f), w_ * mesh_.shape_normals()[f];
+    p << mesh_.centroid(f), w_ * mesh_.shape_normal(f);
     return p;
   }
 
   /// The distance of two points; a face without normal looks like the other one.
   double distance(Index f, Index g) const {
-    const Eigen::Vector3d &m = mesh_.shape_normals()[f], &n = mesh_.shape_normals()[g];
+    const Eigen::Vector3d m = mesh_.shape_normal(f), n = mesh_.shape_normal(g);
     const double turn = m.isZero(0) || n.isZero(0) ? 0 : (m - n).squaredNorm();
     return std::sqrt((mesh_.centroid(f) - mesh_.centroid(g)).squaredNorm() + w_ * w_ * turn);
   }
 
   /// The distances over the edges, in their order; infinite over walls.
   std::vector<double> edge_lengths() const {
-    std::vector<double> length;
-    length.reserve(mesh_.number_of_edges());
-    for (Index e = 0; e < mesh_.number_of_edges(); ++e) {
-      const auto [f, g] = mesh_.graph().faces_of(e);
-      length.push_back(mesh_.is_wall(e) ? std::numeric_limits<double>::infinity() : distance(f, g));
-    }
-    return length;
+    std::vector<double> lengths(mesh_.number_of_edges());
+    parallel_stretches(lengths.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto e = static_cast<Index>(i);
+        const auto [f, g] = mesh_.graph().faces_of(e);
+        lengths[i] = mesh_.is_wall(e) ? std::numeric_limits<double>::infinity() : distance(f, g);
+      }
+    });
+    return lengths;
   }
 
  private:

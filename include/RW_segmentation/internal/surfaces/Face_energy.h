@@ -48,7 +48,7 @@ class Face_energy {
   /// The angle between a face and a surface of a type, 0 if the face has no normal.
   template <class Surface>
   double angle(const Surface& surface, double sign, Index f) const {
-    const Eigen::Vector3d& normal = mesh_.shape_normals()[f];
+    const Eigen::Vector3d normal = mesh_.shape_normal(f);
     if (normal.isZero()) return 0;
     return std::acos(std::clamp(sign * surface.normal(mesh_.centroid(f)).dot(normal), -1., 1.));
   }

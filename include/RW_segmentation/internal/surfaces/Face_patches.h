@@ -152,9 +152,9 @@ class Face_patches {
       samples_.points.push_back(mesh_.point(patch.vertices[i]));
     for (std::size_t i = 0, step = step_of(patch.faces); i < patch.faces.size(); i += step) {
       const Index f = patch.faces[i];
-      if (mesh_.shape_normals()[f].isZero()) continue;
+      if (mesh_.shape_normal(f).isZero()) continue;
       samples_.normal_points.push_back(mesh_.centroid(f));
-      samples_.normals.push_back(mesh_.shape_normals()[f]);
+      samples_.normals.push_back(mesh_.shape_normal(f));
     }
     return samples_;
   }

@@ -36,7 +36,7 @@ class Face_refinement {
     mesh_ = triangles_of(mesh);
   }
 
-  /// The triangles, in the unit box of the mesh. They have the `shape_normals()` of their faces.
+  /// The triangles, in the unit box of the mesh. They have the `shape_normal()` of their faces.
   const Dual_mesh& mesh() const { return mesh_; }
 
   /// The face that each triangle is part of.
@@ -103,7 +103,7 @@ class Face_refinement {
     box.rounding = mesh.rounding();
     std::vector<Eigen::Vector3d> normals;
     normals.reserve(face_.size());
-    for (const Index f : face_) normals.push_back(mesh.shape_normals()[f]);
+    for (const Index f : face_) normals.push_back(mesh.shape_normal(f));
     return Dual_mesh(std::move(arrays), &box).with_shape_normals(std::move(normals));
   }
 

@@ -29,7 +29,7 @@ inline std::vector<double> signs_of(const Dual_mesh& mesh, const Analytic_region
   std::vector<double> sums(regions.surfaces.size(), 0);
   for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f)
     if (const std::size_t region = regions.region_of_face[f]; region != Analytic_regions::none)
-      sums[region] += mesh.area(f) * regions.surfaces[region].normal(mesh.centroid(f)).dot(mesh.shape_normals()[f]);
+      sums[region] += mesh.area(f) * regions.surfaces[region].normal(mesh.centroid(f)).dot(mesh.shape_normal(f));
   for (double& sum : sums) sum = sum < 0 ? -1 : 1;
   return sums;
 }

@@ -134,7 +134,7 @@ class Region_fragments {
   /// A single face says nothing.
   bool is_flat(const std::vector<Index>& group) const {
     if (group.size() == 1) return false;
-    const Eigen::Vector3d& normal = mesh_.shape_normals()[group.front()];
+    const Eigen::Vector3d normal = mesh_.shape_normal(group.front());
     const Eigen::Vector3d& origin = mesh_.centroid(group.front());
     for (const Index f : group)
       for (const Index v : mesh_.corners(f))

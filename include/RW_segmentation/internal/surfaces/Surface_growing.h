@@ -151,7 +151,7 @@ class Surface_growing {
     progress_(done_);
   }
 
-  const Eigen::Vector3d& normal(Index face) const { return mesh_.shape_normals()[face]; }
+  Eigen::Vector3d normal(Index face) const { return mesh_.shape_normal(face); }
 
   // ---- One region ----
 

@@ -225,7 +225,7 @@ class Surface_proposals {
   double sign_of(const Analytic_surface& surface, const std::vector<Index>& faces) const {
     return with_type_of(surface, [&](const auto& s) {
       double sum = 0;
-      for (const Index f : faces) sum += mesh_.area(f) * s.normal(mesh_.centroid(f)).dot(mesh_.shape_normals()[f]);
+      for (const Index f : faces) sum += mesh_.area(f) * s.normal(mesh_.centroid(f)).dot(mesh_.shape_normal(f));
       return sum < 0 ? -1. : 1.;
     });
   }

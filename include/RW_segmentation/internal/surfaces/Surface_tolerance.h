@@ -99,13 +99,13 @@ struct Surface_tolerance {
 
 /// The angle between the faces of each edge by the normals of the shape, 0 where one of them has none.
 inline std::vector<double> edge_angles(const Dual_mesh& mesh) {
-  const std::vector<Eigen::Vector3d>& normal = mesh.shape_normals();
   std::vector<double> angles;
   angles.reserve(mesh.number_of_edges());
   for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
     const auto [f, g] = mesh.graph().faces_of(e);
-    const bool has_angle = !normal[f].isZero() && !normal[g].isZero();
-    angles.push_back(has_angle ? 2 * std::asin(std::min(1., (normal[f] - normal[g]).norm() / 2)) : 0);
+    const Eigen::Vector3d m = mesh.shape_normal(f), n = mesh.shape_normal(g);
+    const bool has_angle = !m.isZero() && !n.isZero();
+    angles.push_back(has_angle ? 2 * std::asin(std::min(1., (m - n).norm() / 2)) : 0);
   }
   return angles;
 }
