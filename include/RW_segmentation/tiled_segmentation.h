@@ -50,26 +50,11 @@
 
 namespace RW_segmentation {
 
-namespace internal {
-
-/// Clusters of tiles are finer than those of a whole mesh, since they end at the borders of tiles. By the numbers of a whole
-/// mesh a hand of 612 thousand faces in 8 tiles differs from the whole by .047, by these by .003 (`benchmark_tiles`).
-inline Walk_reduction reduction_of_tiles() {
-  Walk_reduction reduction;
-  reduction.cluster_steps = 3;
-  reduction.band = 2;
-  return reduction;
-}
-
-}  // namespace internal
-
 /// What a segmentation of tiles is made with; as in `Automatic_segmentation` with one seeding.
 struct Tiled_segmentation {
-  Normal_smoothing smoothing;  ///< of the shape
-  std::size_t seeds = 40;      ///< of the whole mesh, and one more for each further connected component
-  /// How large clusters are; walks over tiles run over clusters in any case. Finer ones than by default, 3 steps, and a band
-  /// of 2.
-  Walk_reduction reduction = internal::reduction_of_tiles();
+  Normal_smoothing smoothing;    ///< of the shape
+  std::size_t seeds = 40;        ///< of the whole mesh, and one more for each further connected component
+  Walk_reduction reduction;      ///< how large clusters are; walks over tiles run over clusters in any case
   Thickness_sampling thickness;  ///< 0 samples: thickness does not count
   /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
   double tolerance = 0;
