@@ -6,9 +6,11 @@
 
 #include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/mesh/Face_corners.h>
 #include <RW_segmentation/internal/mesh/Face_diffusion.h>
 #include <RW_segmentation/internal/mesh/smoothed_points.h>
 #include <RW_segmentation/smoothed_face_normals.h>
+#include <RW_segmentation/tiled_segmentation.h>
 
 #include <gtest/gtest.h>
 
@@ -305,6 +307,26 @@ TEST(Smoothed_face_normals, ComeFromASolverThatConvergesAsWellWhereStretchesAreS
       EXPECT_LT(mean_angle(apart.vectors, together.vectors), 1e-4) << shape.faces.size() << " faces, radius " << radius;
       EXPECT_LE(apart.iterations, 2 * together.iterations + 4) << shape.faces.size() << " faces, radius " << radius;
     }
+}
+
+TEST(Smoothed_face_normals, ComeFromLevelsThatHalveEvenWhereNeighboursAreNumberedFarApart) {
+  meshes::Shape sphere = meshes::sphere(4);
+  std::shuffle(sphere.faces.begin(), sphere.faces.end(), std::mt19937(3));
+  RW_segmentation::internal::Face_corners corners;
+  for (const auto& face : sphere.faces) {
+    for (const std::size_t corner : face) corners.add(static_cast<std::uint32_t>(corner));
+    corners.end_face();
+  }
+  RW_segmentation::Tile_plan plan;
+  plan.total_area = 1;
+  const RW_segmentation::Dual_mesh mesh = RW_segmentation::internal::part_of(plan, std::move(corners), sphere.points);
+  const auto own = [&](std::uint32_t f) { return mesh.normal(f); };
+  const auto diffused = [&](std::size_t shortest_stretch) {
+    RW_segmentation::internal::Face_diffusion diffusion(mesh, 1, shortest_stretch);
+    EXPECT_LT(diffusion.number_of_levels(), 10U);
+    return diffusion.solve(own, own, 1e-5, RW_segmentation::Progress());
+  };
+  EXPECT_LT(mean_angle(diffused(100), diffused(1000000)), 1e-4);
 }
 
 TEST(Smoothed_face_normals, ComeFromASolverThatSoonConvergesBesideNeedlesOfAnyWidth) {
