@@ -142,13 +142,13 @@ class Surfaces_of_segments {
 };
 
 RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_segments(
-    const Dual_mesh& given, const std::vector<std::size_t>& segment_of_face, std::size_t number_of_segments,
+    const Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face, std::size_t number_of_segments,
     double noise) {
-  const Dual_mesh mesh = with_stored_normals(given);
-  const Surface_tolerance tolerance = surface_tolerance(mesh, noise);
+  const Dual_mesh shape = with_stored_normals(mesh);
+  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
   std::vector<Analytic_surface> surfaces =
-      Surfaces_of_segments(mesh, segment_of_face, number_of_segments, tolerance).surfaces();
-  for (Analytic_surface& surface : surfaces) surface = in_mesh_coordinates(surface, mesh);
+      Surfaces_of_segments(shape, segment_of_face, number_of_segments, tolerance).surfaces();
+  for (Analytic_surface& surface : surfaces) surface = in_mesh_coordinates(surface, shape);
   return surfaces;
 }
 

@@ -25,33 +25,33 @@ inline std::vector<double> conductances_beside_surfaces(const Dual_mesh& mesh) {
   return conductances(mesh, Dihedral_difference_policy{every_crease, Dihedral_measure::angle}(mesh), sigma, cap);
 }
 
-RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& given, double noise,
+RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
                                                                   const Progress& progress, Segmentation_report& report,
                                                                   Stage_clock& clock) {
-  const Dual_mesh mesh = with_stored_normals(given);
-  const Surface_tolerance tolerance = surface_tolerance(mesh, noise);
+  const Dual_mesh shape = with_stored_normals(mesh);
+  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
   clock.note("noise");
-  const Analytic_regions regions = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));
+  const Analytic_regions regions = find_analytic_regions(shape, tolerance, progress.part(0, 0.8));
   clock.note("surfaces");
 
-  const std::vector<double> conductance = conductances_beside_surfaces(mesh);
-  Region_fragments fragments(mesh, tolerance, conductance);
+  const std::vector<double> conductance = conductances_beside_surfaces(shape);
+  Region_fragments fragments(shape, tolerance, conductance);
   Segments_on_surfaces result;
   result.fragment_of_face = fragments.fragments(regions.region_of_face, progress.part(0.8, 0.85));
   clock.note("walk");
 
-  report.components = Components(mesh.graph(), [&](Dual_mesh::Index e) { return !mesh.is_wall(e); }).count;
+  report.components = Components(shape.graph(), [&](Dual_mesh::Index e) { return !shape.is_wall(e); }).count;
   report.noise = tolerance.noise;
   report.seeds = regions.surfaces.size();
   report.fragments = *std::max_element(result.fragment_of_face.begin(), result.fragment_of_face.end()) + 1;
-  report.degenerate_faces = mesh.number_of_degenerate_faces();
-  const Analytic_surface_cost cost(mesh, tolerance);
+  report.degenerate_faces = shape.number_of_degenerate_faces();
+  const Analytic_surface_cost cost(shape, tolerance);
   auto region_of = [&](Dual_mesh::Index f) {
-    return fragments.is_given(f) ? Analytic_surface_cost::Region() : cost.region(mesh, f);
+    return fragments.is_given(f) ? Analytic_surface_cost::Region() : cost.region(shape, f);
   };
   result.tree = Region_merging<Analytic_surface_cost>(
                     join_faces(result.fragment_of_face, report.fragments, cost, region_of),
-                    region_boundaries(mesh, result.fragment_of_face, edge_sharpness(mesh, tolerance), cost), cost)
+                    region_boundaries(shape, result.fragment_of_face, edge_sharpness(shape, tolerance), cost), cost)
                     .run(progress.part(0.85, 1));
   clock.note("merging");
   progress(1);
