@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -54,23 +55,27 @@ class Label_currents {
  private:
   void collect_labels(const std::vector<Index>& labels) {
     const Elimination_plan& plan = factor_.plan;
+    std::vector<std::size_t> by_label(labels.size());
+    std::iota(by_label.begin(), by_label.end(), std::size_t(0));
+    std::stable_sort(by_label.begin(), by_label.end(), [&](auto a, auto b) { return labels[a] < labels[b]; });
+    // Where a label has come by already, it has come by all the way up to the root.
+    std::vector<Index> last_label(plan.supernodes.size(), none);
     std::vector<std::pair<Index, Index>> below;  // supernode, label
-    for (std::size_t r = 0; r < labels.size(); ++r)
-      for (Index s = plan.supernode_of[plan.position[factor_.absorbing_faces[r]]]; s != none;
-           s = plan.supernodes[s].parent)
-        below.emplace_back(s, labels[r]);
-    std::sort(below.begin(), below.end());
-    below.erase(std::unique(below.begin(), below.end()), below.end());
     first_label_.assign(plan.supernodes.size() + 1, 0);
-    labels_.reserve(below.size());
-    for (const auto& [s, label] : below) {
-      ++first_label_[s + std::size_t(1)];
-      labels_.push_back(label);
-    }
+    for (const std::size_t r : by_label)
+      for (Index s = plan.supernode_of[plan.position[factor_.absorbing_faces[r]]];
+           s != none && last_label[s] != labels[r]; s = plan.supernodes[s].parent) {
+        last_label[s] = labels[r];
+        below.emplace_back(s, labels[r]);
+        ++first_label_[s + std::size_t(1)];
+      }
+    std::partial_sum(first_label_.begin(), first_label_.end(), first_label_.begin());
+    labels_.resize(below.size());
+    std::vector<std::size_t> next = first_label_;
+    for (const auto& [s, label] : below) labels_[next[s]++] = label;
     first_current_.assign(plan.supernodes.size(), 0);
     std::size_t currents = 0;
     for (std::size_t s = 0; s < plan.supernodes.size(); ++s) {
-      first_label_[s + 1] += first_label_[s];
       first_current_[s] = currents;
       currents += plan.supernodes[s].column_count() * number_of_labels(static_cast<Index>(s));
     }
