@@ -248,9 +248,10 @@ Automatic_segmentation with_seedings(std::size_t seedings, Automatic_segmentatio
   return policy;
 }
 
-/// \param largest_direct 0 runs every walk over clusters
+/// \param largest_direct 0 places seeds and runs walks over clusters on every mesh
 Automatic_segmentation with_largest_direct(std::size_t largest_direct) {
   Automatic_segmentation policy;
+  policy.seeding.sampling = Farthest_point_sampling(policy.seeding.sampling.normal_weight(), largest_direct);
   policy.reduction.largest_direct = largest_direct;
   return policy;
 }

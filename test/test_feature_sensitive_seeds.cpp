@@ -4,6 +4,9 @@
 
 #include <RW_segmentation/Particle_sampling.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/internal/seeds/Distance_clusters.h>
+#include <RW_segmentation/internal/seeds/Distances_to_sources.h>
+#include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -11,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -290,6 +294,73 @@ TEST(Farthest_point_seeds, GoOnFromGivenOnes) {
   const auto all = seeds_of(bumpy_sphere(), 20);
   const std::vector<std::size_t> rest(all.begin() + 6, all.end());
   EXPECT_EQ(seeds_of(bumpy_sphere(), 14, Farthest_point_sampling(), first(all, 6)), rest);
+}
+
+TEST(Distance_clusters, HaveAWayForAnyTwoThatTouchWhichIsThatOfShortestPathsIfFacesAreClusters) {
+  const Shape shape = bumpy_sphere(2);
+  const Mesh mesh = meshes::surface_mesh(shape);
+  const Dual_mesh_of dual(mesh);
+  const Metric metric(shape);
+  std::vector<Dual_graph::Index> number(shape.faces.size());  // in the dual mesh, of each face of the shape
+  for (Dual_graph::Index i = 0; i < number.size(); ++i) number[dual.face(i)] = i;
+  const std::vector<double> lengths = internal::Feature_sensitive_metric(dual, 0.05).edge_lengths();
+  for (const std::size_t steps : {0u, 1u, 3u}) {
+    const internal::Distance_clusters clusters(dual.graph(), lengths, steps);
+    std::set<std::array<Dual_graph::Index, 2>> touching;
+    for (std::size_t f = 0; f < number.size(); ++f)
+      for (const std::size_t g : metric.neighbours[f]) {
+        const auto a = clusters.of_face[number[f]], b = clusters.of_face[number[g]];
+        if (a < b) touching.insert({a, b});
+      }
+    EXPECT_EQ(std::vector(touching.begin(), touching.end()), clusters.ends);
+
+    const Dual_graph graph(clusters.root.size(), clusters.ends);
+    internal::Distances_to_sources distance(graph, clusters.lengths);
+    const Dual_graph::Index source = clusters.of_face[number[7]];
+    distance.add_source(source);
+    const std::vector<double> path = metric.paths_from(dual.face(clusters.root[source]));
+    for (Dual_graph::Index c = 0; c < clusters.root.size(); ++c) {
+      const double over_clusters = dual.unit() * std::max(0., distance[c]);
+      const double over_faces = path[dual.face(clusters.root[c])];
+      EXPECT_GE(over_clusters, over_faces * (1 - 1e-9));
+      EXPECT_LE(over_clusters, over_faces * (steps == 0 ? 1 + 1e-9 : 2));
+    }
+  }
+}
+
+TEST(Distance_clusters, DoNotReachOverInfiniteEdges) {
+  const Dual_graph row(4, {{0, 1}, {1, 2}, {2, 3}});
+  const internal::Distance_clusters clusters(row, {1., infinity, 1.}, 5);
+  EXPECT_EQ(clusters.root, (std::vector<Dual_graph::Index>{0, 2}));
+  EXPECT_EQ(clusters.of_face, (std::vector<Dual_graph::Index>{0, 0, 1, 1}));
+  EXPECT_TRUE(clusters.ends.empty());
+}
+
+TEST(Farthest_point_seeds, OverClustersCoverAMeshAboutAsWell) {
+  const Farthest_point_sampling over_clusters(0.05, 0);
+  for (const Shape& shape : {bumpy_sphere(4), meshes::torus(1, 0.4, 80, 34), meshes::cube(21)}) {
+    ASSERT_GT(shape.faces.size(), 5000u);  // some 250 clusters, as many as five seeds need
+    const Metric metric(shape);
+    const double directly = metric.covering_radius(seeds_of(shape, 4));
+    const auto seeds = seeds_of(shape, 4, over_clusters);
+    EXPECT_EQ(as_set(seeds).size(), 4u);
+    EXPECT_NE(seeds, seeds_of(shape, 4));
+    EXPECT_LE(metric.covering_radius(seeds), 1.2 * directly);
+
+    const auto added = seeds_of(shape, 2, over_clusters, first(seeds, 2));
+    EXPECT_EQ(added, std::vector<std::size_t>(seeds.begin() + 2, seeds.end()));
+  }
+}
+
+TEST(Farthest_point_seeds, AreDirectUpToTheirLargestMeshAndWhereClustersAreFewForThem) {
+  const Shape shape = bumpy_sphere(4);
+  const std::size_t faces = shape.faces.size();
+  EXPECT_EQ(Farthest_point_sampling().largest_direct(), 100000u);
+  const Farthest_point_sampling direct(0.05, faces), over_clusters(0.05, faces - 1);
+  EXPECT_EQ(over_clusters.largest_direct(), faces - 1);
+  EXPECT_EQ(seeds_of(shape, 4, direct), seeds_of(shape, 4));
+  EXPECT_NE(seeds_of(shape, 4, over_clusters), seeds_of(shape, 4));
+  EXPECT_EQ(seeds_of(shape, 40, over_clusters), seeds_of(shape, 40));
 }
 
 TEST(Farthest_point_seeds, OfCostsThatDifferWidelyAreThoseOfShortestPaths) {

@@ -340,9 +340,9 @@ TEST(WalkFragments, AreMadeByAnySolver) {
 
 TEST(WalkReduction, ClustersGrowWithLargeMeshesAlone) {
   const Walk_reduction reduction;
-  EXPECT_EQ(internal::cluster_steps(10, reduction), reduction.cluster_steps);
-  EXPECT_EQ(internal::cluster_steps(600000, reduction), reduction.cluster_steps);
-  EXPECT_EQ(internal::cluster_steps(2400000, reduction), 2 * reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(10, reduction.cluster_steps), reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(600000, reduction.cluster_steps), reduction.cluster_steps);
+  EXPECT_EQ(internal::cluster_steps(2400000, reduction.cluster_steps), 2 * reduction.cluster_steps);
 }
 
 TEST(WalkReduction, AMeshOfFewFacesIsSegmentedToo) {

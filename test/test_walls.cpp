@@ -393,16 +393,18 @@ TEST(WallsInStages, GetASeedOnEachSide) {
     };
     std::vector<Mesh::Face_index> farthest, particles, coarse = {}, given = {walls.random_face()};
     if (walls.parts() > 1) {
-      EXPECT_THROW(feature_sensitive_seeds(mesh, walls.parts() - 1, std::back_inserter(farthest),
-                                           std::vector<Mesh::Face_index>(), Farthest_point_sampling(), np),
-                   std::invalid_argument);
-      EXPECT_TRUE(farthest.empty());
-      // One part has a seed already.
-      farthest = given;
-      feature_sensitive_seeds(mesh, walls.parts() - 1, std::back_inserter(farthest), given, Farthest_point_sampling(),
-                              np);
-      EXPECT_EQ(farthest.size(), walls.parts());
-      expect_seed_in_each_part(farthest);
+      for (const auto& sampling : {Farthest_point_sampling(), Farthest_point_sampling(0.05, 0)}) {
+        farthest.clear();
+        EXPECT_THROW(feature_sensitive_seeds(mesh, walls.parts() - 1, std::back_inserter(farthest),
+                                             std::vector<Mesh::Face_index>(), sampling, np),
+                     std::invalid_argument);
+        EXPECT_TRUE(farthest.empty());
+        // One part has a seed already.
+        farthest = given;
+        feature_sensitive_seeds(mesh, walls.parts() - 1, std::back_inserter(farthest), given, sampling, np);
+        EXPECT_EQ(farthest.size(), walls.parts());
+        expect_seed_in_each_part(farthest);
+      }
     }
     particles = given;
     feature_sensitive_seeds(mesh, walls.parts() + 3, std::back_inserter(particles), given, Particle_sampling(), np);

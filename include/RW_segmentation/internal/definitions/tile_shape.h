@@ -6,10 +6,10 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/seeds/Distance_clusters.h>
 #include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
-#include <RW_segmentation/internal/walk/Face_clusters.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
@@ -328,26 +328,11 @@ inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std:
                              Tile_outline& outline) {
   const std::vector<double> lengths =
       Feature_sensitive_metric(shape.mesh, Farthest_point_sampling().normal_weight()).edge_lengths();
-  // A resistance is a length here, so that of the ways between two clusters the shortest one is wanted.
-  std::vector<double> inverse = own.own(lengths);
-  for (double& length : inverse) length = 1 / std::max(length, std::numeric_limits<double>::min());
-  const Face_clusters clusters(own.graph, inverse, std::vector<char>(inverse.size(), true), steps, {});
-  outline.faces = clusters.root;
-  for (const auto face : clusters.root) outline.centroids.push_back(shape.mesh.centroid(face));
-  std::vector<Cluster_way> ways;
-  for (Dual_graph::Index e = 0; e < own.graph.number_of_edges(); ++e) {
-    const auto [f, g] = own.graph.faces_of(e);
-    const auto [a, b] = std::minmax(clusters.of_face[f], clusters.of_face[g]);
-    if (a != b) ways.push_back({{a, b}, clusters.resistance[f] + lengths[own.edges[e]] + clusters.resistance[g]});
-  }
-  std::sort(ways.begin(), ways.end(), [](const Cluster_way& a, const Cluster_way& b) {
-    return std::tie(a.clusters, a.conductance) < std::tie(b.clusters, b.conductance);
-  });
-  for (const auto& [nodes, length] : ways) {
-    if (!outline.edges.empty() && outline.edges.back() == nodes) continue;
-    outline.edges.push_back(nodes);
-    outline.lengths.push_back(length);
-  }
+  Distance_clusters clusters(own.graph, own.own(lengths), steps);
+  outline.faces = std::move(clusters.root);
+  for (const auto face : outline.faces) outline.centroids.push_back(shape.mesh.centroid(face));
+  outline.edges = std::move(clusters.ends);
+  outline.lengths = std::move(clusters.lengths);
   for (const auto& shared : shape.shared_edges) {
     const auto f = own_face(shape, shared);
     const bool is_owner = number < shared.neighbour;

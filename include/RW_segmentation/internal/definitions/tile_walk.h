@@ -153,7 +153,7 @@ RW_SEGMENTATION_INLINE Tile_clusters internal::clusters_of_tile(const Tile_shape
       internal::conductances_of(shape.mesh, internal::differences_of(shape.mesh, seeds.ordinary));
   const internal::Face_clusters clusters = internal::clusters_around(
       internal::seeds_in(seeds, number), own.graph, own.own(conductances), own.own(shape.mesh.edge_lengths()),
-      options.reduction.largest_difference, internal::cluster_steps(plan.faces, options.reduction));
+      options.reduction.largest_difference, internal::cluster_steps(plan.faces, options.reduction.cluster_steps));
   network.clusters = clusters.root.size();
   for (Dual_mesh::Index e = 0; e < clusters.graph.number_of_edges(); ++e)
     network.edges.push_back(clusters.graph.faces_of(e));

@@ -39,7 +39,7 @@ RW_SEGMENTATION_INLINE Fragments walk_fragments_over_clusters(
     const Walk_reduction& reduction, const std::function<Any_walk_solver()>& make_solver, const Progress& progress) {
   Face_clusters clusters =
       clusters_around(seeds, network.graph, network.conductances, edge_length, reduction.largest_difference,
-                      cluster_steps(network.graph.number_of_faces(), reduction));
+                      cluster_steps(network.graph.number_of_faces(), reduction.cluster_steps));
   std::vector<double>().swap(clusters.resistance);
   progress(0.2);
   Components component;
