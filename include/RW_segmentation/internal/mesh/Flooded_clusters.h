@@ -76,7 +76,7 @@ struct Flooded_clusters {
 template <class Way>
 void sort_by_clusters(std::vector<Way>& ways, std::size_t number_of_clusters) {
   std::vector<Way> sorted(ways.size());
-  for (const std::size_t end : {1, 0}) {
+  for (const std::size_t end : {1u, 0u}) {
     std::vector<std::size_t> next(number_of_clusters + 1, 0);
     for (const Way& way : ways) ++next[way.clusters[end] + std::size_t(1)];
     std::partial_sum(next.begin(), next.end(), next.begin());
