@@ -10,7 +10,8 @@ namespace RW_segmentation {
 /// How the walk on a large mesh is reduced (section 3.2 of the paper): walks from the seeds run over clusters of faces, and
 /// then once more over the faces along the boundaries.
 ///
-/// Normals, differences, thickness and merging are those of the faces in any case. Clusters are fine around the seeds. Time then grows with about the power 1.1 of the number of faces, and memory is half as much.
+/// Normals, differences, thickness and merging are those of the faces in any case. Clusters are fine around the seeds. Time
+/// then grows with about the power 1.1 of the number of faces, and memory is half as much.
 struct Walk_reduction {
   /// Walks run over the faces of meshes with up to so many; 0 reduces every walk. Reduced, all stages take .6 to .75 of the
   /// time at 153 and 612 thousand faces (`benchmark_scaling`), and agree with people as well (`benchmark_princeton --faces 4

@@ -31,8 +31,9 @@ namespace RW_segmentation {
 /// Places exactly as many seeds as asked for, each at the face farthest from the seeds before it; deterministic.
 ///
 /// Distances are lengths of paths over neighbouring faces. The farthest face is at most twice as far from its seed as
-/// with the best placement of so many seeds (Gonzalez 1985). On large meshes paths lead over clusters of about 20 faces
-/// unless seeds are so many that less than 50 clusters would be left for each; seeds are then the middles of clusters.
+/// with the best placement of so many seeds (Gonzalez 1985). On large meshes that holds but for the size of
+/// clusters of some 20 faces, over which paths lead there; over faces after all where less than 50 clusters would be left for
+/// each seed.
 class Farthest_point_sampling {
  public:
   Farthest_point_sampling() = default;

@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
