@@ -14,8 +14,8 @@ namespace RW_segmentation {
 /// then grows with about the power 1.1 of the number of faces, and memory is half as much.
 struct Walk_reduction {
   /// Walks run over the faces of meshes with up to so many; 0 reduces every walk. Reduced, all stages take .6 to .75 of the
-  /// time at 153 and 612 thousand faces (`benchmark_scaling`), and agree with people as well (`benchmark_princeton --faces 4
-  /// --method direct clusters`).
+  /// time at 153 and 612 thousand faces (`benchmark_scaling`), and agree with people about as well: .0922 for .0912
+  /// (`benchmark_princeton --faces 4 --method direct clusters --folds category`).
   std::size_t largest_direct = 100000;
   /// The least distance between the roots of two clusters, in steps from face to face, on meshes of up to 600 thousand
   /// faces; grows with the square root of their number from there on, so that the number of clusters hardly does. With 6

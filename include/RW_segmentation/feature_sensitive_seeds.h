@@ -42,7 +42,7 @@ class Farthest_point_sampling {
   /// if not given
   /// \param largest_direct up to so many faces paths lead over faces
   /// \throws std::invalid_argument unless `normal_weight` is finite and not negative
-  explicit Farthest_point_sampling(double normal_weight, std::size_t largest_direct = 100000);
+  explicit Farthest_point_sampling(double normal_weight, std::size_t largest_direct = default_largest_direct);
 
   /// w as a fraction of the square root of the total area.
   double normal_weight() const { return normal_weight_; }
@@ -60,7 +60,8 @@ class Farthest_point_sampling {
 
  private:
   double normal_weight_ = 0.05;
-  std::size_t largest_direct_ = 100000;
+  static constexpr std::size_t default_largest_direct = 100000;  // faces, as in Walk_reduction
+  std::size_t largest_direct_ = default_largest_direct;
 };
 
 /// Seeds that lie evenly on the shape, a seeding policy: a function object from a dual mesh, the difference of its edges and

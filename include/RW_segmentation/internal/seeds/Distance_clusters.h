@@ -14,10 +14,10 @@
 
 namespace RW_segmentation::internal {
 
-/// Clusters of faces with the shortest ways between their roots: a small stand-in for the distances on a large mesh. No
-/// cluster and no way leads over an edge of infinite length.
+/// Clusters of faces with the shortest ways between their roots: a small stand-in for the distances on a large mesh. What
+/// adds up as `resistance` are lengths here. No cluster and no way leads over an edge of infinite length.
 struct Distance_clusters : Flooded_clusters {
-  std::vector<std::array<Index, 2>> ends;  ///< the two clusters of each way, the lower number first, each two once
+  std::vector<std::array<Index, 2>> ends;  ///< of each way the two clusters, the lower number first; all different
   std::vector<double> lengths;             ///< of the ways
 
   /// \param edge_length of the edges of the dual graph, in their order
