@@ -316,6 +316,47 @@ TEST(SegmentationIntoSurfaces, LeavesASphereATorusAndAPlaneWhole) {
     EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape))), 1u);
 }
 
+/// A cylinder or truncated cone of few sides between two flat ends. Each ring of vertices is turned against the one below it
+/// by a part of a side: by none, all sides are flat.
+static meshes::Shape drum(std::size_t sides, double turn, double top_radius) {
+  constexpr std::size_t rows = 2;
+  meshes::Shape shape;
+  for (std::size_t row = 0; row <= rows; ++row)
+    for (std::size_t i = 0; i < sides; ++i) {
+      const double share = double(row) / double(rows), radius = 1 + share * (top_radius - 1);
+      const double angle = 2 * solids::half_turn * (double(i) + turn * double(row)) / double(sides);
+      shape.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 2 * share);
+    }
+  const auto corner = [&](std::size_t i, std::size_t row) { return row * sides + i % sides; };
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < sides; ++i) {
+      shape.faces.push_back({corner(i, row), corner(i + 1, row), corner(i, row + 1)});
+      shape.faces.push_back({corner(i + 1, row), corner(i + 1, row + 1), corner(i, row + 1)});
+    }
+  const std::size_t bottom = shape.points.size(), top = bottom + 1;
+  shape.points.emplace_back(0, 0, 0);
+  shape.points.emplace_back(0, 0, 2);
+  for (std::size_t i = 0; i < sides; ++i) {
+    shape.faces.push_back({corner(i + 1, 0), corner(i, 0), bottom});
+    shape.faces.push_back({corner(i, rows), corner(i + 1, rows), top});
+  }
+  return shape;
+}
+
+TEST(SegmentationIntoSurfaces, FindsRoundSurfacesOfFewSides) {
+  for (const std::size_t sides : {5u, 6u, 7u, 8u})
+    for (const double top_radius : {1., 0.7})
+      EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(drum(sides, 0.5, top_radius)))), 3u)
+          << sides << " sides, radius at the top " << top_radius;
+}
+
+TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartWhoseCornersLieOnARoundSurface) {
+  for (const std::size_t sides : {5u, 6u, 7u, 8u})
+    for (const double top_radius : {1., 0.7})
+      EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(drum(sides, 0, top_radius)))), sides + 2)
+          << sides << " sides, radius at the top " << top_radius;
+}
+
 TEST(SegmentationIntoSurfaces, GivesAsManySegmentsAsAskedFor) {
   const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
   for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Surface_segmentation(n))), n);

@@ -45,6 +45,7 @@ class Face_patches {
     for (Index e = 0; e < angle_.size(); ++e) is_sharp_.push_back(mesh.is_wall(e) || angle_[e] > sharp_angle(e));
   }
 
+  double angle(Index edge) const { return angle_[edge]; }
   bool is_free(Index face) const { return !is_taken_[face]; }
   void take(const Patch& patch) {
     for (const Index f : patch.faces) is_taken_[f] = true;
@@ -52,15 +53,14 @@ class Face_patches {
 
   /// Free faces about a face, breadth first, not across sharp edges, until they have so many vertices.
   Patch neighbourhood(Index seed, std::size_t vertices) {
-    Patch patch;
-    start(patch);
-    add(patch, seed);
-    for (std::size_t i = 0; i < patch.faces.size(); ++i)
-      for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i])) {
-        if (patch.vertices.size() >= vertices) return patch;
-        if (leads_on(g, e)) add(patch, g);
-      }
-    return patch;
+    return collected(seed, vertices, [&](Index g, Index e) { return leads_on(g, e); });
+  }
+
+  /// As above, but across all edges up to an angle.
+  Patch neighbourhood_within(double angle, Index seed, std::size_t vertices) {
+    return collected(seed, vertices, [&](Index g, Index e) {
+      return !is_marked(g) && is_free(g) && !mesh_.is_wall(e) && angle_[e] <= angle;
+    });
   }
 
   /// As above, but across the flattest edges first: the way with the smallest angle leads on (Prim), whatever lies behind it,
@@ -173,6 +173,19 @@ class Face_patches {
         vertex_mark_[v] = mark_;
         patch.vertices.push_back(v);
       }
+  }
+  /// \param leads_on a predicate of a face and the edge that leads to it
+  template <class Predicate>
+  Patch collected(Index seed, std::size_t vertices, const Predicate& leads_on) {
+    Patch patch;
+    start(patch);
+    add(patch, seed);
+    for (std::size_t i = 0; i < patch.faces.size(); ++i)
+      for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i])) {
+        if (patch.vertices.size() >= vertices) return patch;
+        if (leads_on(g, e)) add(patch, g);
+      }
+    return patch;
   }
   bool leads_on(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !is_sharp_[edge]; }
 

@@ -7,7 +7,9 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
+#include <RW_segmentation/internal/surfaces/Coarse_arcs.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
+#include <RW_segmentation/internal/surfaces/Region_growth.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
@@ -27,16 +29,16 @@ namespace RW_segmentation::internal {
 
 /// Cuts a mesh into connected regions of faces that lie on one analytic surface each, and the remainder.
 ///
-/// A surface is fitted to the neighbourhood of a face, flooded as far as vertices and normals agree, fitted to what was
-/// flooded, and so on, until it grows no more. Of all types the one that explains most vertices is kept. Regions that
-/// explain many vertices are taken first; `gain` is the number of vertices beyond those that determine the surface.
+/// Regions grow about faces; of all types of surfaces the one that explains most vertices is kept. Regions that explain
+/// many vertices are taken first; `gain` is the number of vertices beyond those that determine the surface.
 ///
 /// Failures teach: where nothing fits about a face, the faces round it are not tried, until a region is taken nearby. So
 /// free forms cost little.
 ///
 /// Where a number tells an overlap or Rand error, it was made smaller or larger alone and `benchmark_engineering` run:
 /// without noise on CAD solids as kernels mesh them (`--suffix _t`, .9744 and .0099 with the numbers as they are), where
-/// told on the same meshed evenly (`_5k`: .9766 and .0023, `_30k`: .9908 and .0013) or on made solids (1 and 0).
+/// told on the same meshed evenly (`_5k`: .9766 and .0023, `_30k`: .9908 and .0013) or on made solids (1 and 0). That was
+/// without `Coarse_arcs`, with which evenly meshed solids have .9872 and .0013, .9911 and .0012.
 class Surface_growing {
  public:
   using Index = Dual_mesh::Index;
@@ -46,26 +48,21 @@ class Surface_growing {
       : mesh_(mesh),
         tolerance_(tolerance),
         patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
+        growth_(mesh, tolerance, patches_, work_),
+        coarse_arcs_(mesh, tolerance, patches_, work_),
         failures_(mesh.number_of_faces()),
         possible_gain_(mesh.number_of_faces(), unknown_gain),
-        tries_(mesh.number_of_faces(), 0),
-        seen_(mesh.number_of_vertices(), 0) {
+        tries_(mesh.number_of_faces(), 0) {
     regions_.region_of_face.assign(mesh.number_of_faces(), Analytic_regions::none);
-    least_cosine_.reserve(tolerance.normal_angle.size());
-    for (const double angle : tolerance.normal_angle) least_cosine_.push_back(std::cos(angle));
   }
 
   /// Grows all regions, once.
   Analytic_regions regions(const Progress& progress) {
     const std::vector<Index> order = largest_first();
-    const std::vector<Pass> all = passes();
-    constexpr double first_pass =
-        0.6;  // of the time: half to nine tenths, for the meshes of benchmark/benchmark_defects
-    const auto later = static_cast<double>(all.size() - 1);
     double begin = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const double end = first_pass + (1 - first_pass) * static_cast<double>(k) / later;
-      run(all[k], order, progress.part(begin, end));
+    for (const Pass& pass : passes()) {
+      const double end = std::min(1., begin + pass.part);
+      run(pass, order, progress.part(begin, end));
       begin = end;
     }
     return std::move(regions_);
@@ -73,14 +70,9 @@ class Surface_growing {
 
  private:
   using Patch = Face_patches::Patch;
+  using Region = Region_growth::Region;
 
   static constexpr double unknown_gain = std::numeric_limits<double>::infinity();
-
-  struct Region {
-    Patch patch;
-    Analytic_surface surface;
-    double gain = -std::numeric_limits<double>::infinity();
-  };
 
   /// What the regions about a face gained that were not taken.
   struct Failure {
@@ -91,10 +83,12 @@ class Surface_growing {
   /// Which regions are taken: those that gain enough, about round neighbourhoods of so many vertices at least or along
   /// narrow ones, too.
   struct Pass {
+    double part;  // of the time
     double least_gain;
     std::size_t smallest_start = 0;  // smaller ones happen to lie on surfaces all over a free form
     bool along_strips = false;
-    bool spreads_seeds = false;  // a failure beside a border speaks for the faces next to it, too
+    bool spreads_seeds = false;             // a failure beside a border speaks for the faces next to it, too
+    std::vector<Surface_type> coarse = {};  // types of the surfaces of coarse arcs; none: regions of fine ones
   };
 
   std::vector<Index> largest_first() const {
@@ -107,9 +101,23 @@ class Surface_growing {
   /// By chance, noisy vertices lie on a surface that was fitted to few of them, and pieces of a large surface on others:
   /// the largest come first.
   std::vector<Pass> passes() const {
-    if (tolerance_.is_noisy()) return {{1000}, {400}, {160}, {64}, {24}};
+    // The first pass over fine arcs takes half to nine tenths of the time, for the meshes of benchmark/benchmark_defects.
+    constexpr double first = 0.6, other = 0.1;
+    if (tolerance_.is_noisy()) return {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}};
     // 12 vertices: overlap .9749 at 6, with more segments that are none, .9700 at 24; 3: .9744 at 1.5, .9740 at 6.
-    return {{64, 0, false, true}, {12}, {12, 0, true}, {3, 10}};
+    // Coarse arcs come first, lest fine ones take parts of them (overlap .9867 without, `_5k`; 6 and 24 vertices are as
+    // good), and with fewer vertices again (.9862 at 8; 3 are as good). Any three circles round an axis are on a torus: with
+    // spheres and tori already at first, overlap .9704 (`_t`); without them at all, Rand error .0017 (`_5k`).
+    const std::vector<Surface_type> ruled = {Surface_type::cylinder, Surface_type::cone};
+    const std::vector<Surface_type> curved = {Surface_type::sphere, Surface_type::cylinder, Surface_type::cone,
+                                              Surface_type::torus};
+    constexpr double coarse = other / 2;
+    return {{coarse, 12, 0, false, false, ruled},
+            {first, 64, 0, false, true},
+            {other, 12},
+            {other, 12, 0, true},
+            {coarse, 4, 0, false, false, curved},
+            {other, 3, 10}};
   }
 
   /// Numbers of vertices of the neighbourhoods that surfaces are fitted to first.
@@ -120,40 +128,41 @@ class Surface_growing {
   }
 
   void run(const Pass& pass, const std::vector<Index>& order, const Progress& progress) {
-    progress_ = progress;
-    progress_(0);
+    work_.begin(progress);
     for (std::size_t i = 0; i < order.size(); ++i) {
       // Faces that a region takes are passed over soon: the work is done with those looked at and those taken.
-      done_ = static_cast<double>(i + taken_) / static_cast<double>(2 * order.size());
-      add_work(1);
+      work_.set_done(static_cast<double>(i + taken_) / static_cast<double>(2 * order.size()));
+      work_.add(1);
       const Index seed = order[i];
-      if (!patches_.is_free(seed) || normal(seed).isZero() || possible_gain_[seed] < pass.least_gain) continue;
-      Region region = best_region(seed, pass);
-      if (region.gain < pass.least_gain) {
-        expect_no_more(seed, region, pass);
-        continue;
-      }
-      if (!tolerance_.is_noisy()) prefer_rivals(region, pass);
-      patches_.take(region.patch);
-      taken_ += region.patch.faces.size();
-      expect_anything_beside(region.patch);
-      for (const Index f : region.patch.faces) regions_.region_of_face[f] = regions_.surfaces.size();
-      regions_.surfaces.push_back(region.surface);
+      if (!patches_.is_free(seed) || normal(seed).isZero()) continue;
+      const Region region = pass.coarse.empty() ? region_about(seed, pass)
+                                                : coarse_arcs_.region_about(seed, pass.coarse, pass.least_gain);
+      if (region.gain >= pass.least_gain) take(region);
     }
   }
 
-  /// Reports after some milliseconds of work. The unit is the time in which a face is flooded.
-  void add_work(std::size_t faces) {
-    constexpr std::size_t between_reports = 50000;
-    work_ += faces;
-    if (work_ < between_reports) return;
-    work_ = 0;
-    progress_(done_);
+  void take(const Region& region) {
+    patches_.take(region.patch);
+    taken_ += region.patch.faces.size();
+    expect_anything_beside(region.patch);
+    for (const Index f : region.patch.faces) regions_.region_of_face[f] = regions_.surfaces.size();
+    regions_.surfaces.push_back(region.surface);
   }
 
   Eigen::Vector3d normal(Index face) const { return mesh_.shape_normal(face); }
 
   // ---- One region ----
+
+  /// The region about a face, or what it competes with. One that gains too little teaches what not to try.
+  Region region_about(Index seed, const Pass& pass) {
+    if (possible_gain_[seed] < pass.least_gain) return {};
+    Region region = best_region(seed, pass);
+    if (region.gain < pass.least_gain)
+      expect_no_more(seed, region, pass);
+    else if (!tolerance_.is_noisy())
+      prefer_rivals(region, pass);
+    return region;
+  }
 
   /// The region about a face that explains most.
   Region best_region(Index seed, const Pass& pass) {
@@ -162,6 +171,7 @@ class Surface_growing {
     farthest_ = Patch();
     const Patch about = patches_.neighbourhood(seed, size_about());
     is_in_sheet_ = is_part_of_sheet(about);
+    growth_.set_in_sheet(is_in_sheet_);
     const std::size_t largest = tolerance_.is_noisy() ? 0 : hash_of(about);
     if (tolerance_.is_noisy() || !has_failed(seed, largest, pass.least_gain)) {
       if (begins_well(best, seed, about, pass)) return best;
@@ -234,125 +244,24 @@ class Surface_growing {
 
   /// Tries all surfaces that begin as a neighbourhood of the seed; a more complex one must explain noticeably more.
   void improve(Region& best, Index seed, const Patch& start, double least_gain) {
-    // Ratios of 1 and 1.1 give the same overlap, and so do 1 and 4 vertices.
-    constexpr double noticeable_ratio = 1.05, noticeable_vertices = 2;
     // Vertices beyond those that determine a surface: overlap .9744 at 1, .9668 at 4. Under noise no torus is fitted to
     // the smallest neighbourhood: at 2 statues take 1.2 times the time, and no set of noisy solids gains .01 of overlap.
     constexpr std::size_t clean_surplus = 2, noisy_surplus = 12;
     const std::size_t least_surplus = tolerance_.is_noisy() ? noisy_surplus : clean_surplus;
     start_samples_ = patches_.samples_of(start);
-    const Surface_fit first_fit(start_samples_, largest_first_residual());
+    const Surface_fit first_fit(start_samples_, growth_.largest_first_residual());
     for (const Surface_type type : analytic_types) {
       const bool is_simplest = type == analytic_types.front();
       if (!is_simplest && start.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + least_surplus)
         return;
-      Region region = region_of_type(type, seed, start, first_fit);
-      if (region.gain > (best.gain > 0 ? noticeable_ratio * best.gain + noticeable_vertices : best.gain))
+      Region region = growth_.region_of_type(type, seed, start, first_fit);
+      if (explains_noticeably_more(region, best))
         best = std::move(region);
       else if (!(region.gain > 0) && region.patch.faces.size() > farthest_.faces.size())
         farthest_ = std::move(region.patch);
       const auto ends_at_sharp_edges = [&] { return patches_.faces_beside(best.patch).empty(); };
       if (is_simplest && best.gain >= least_gain && ends_at_sharp_edges()) return;
     }
-  }
-
-  /// Of the surfaces that regions begin with. In a sheet all but exact ones are those of a free form; elsewhere they may
-  /// have begun across a border.
-  double largest_first_residual() const {
-    const bool is_strict = !tolerance_.is_noisy() && is_in_sheet_;
-    return is_strict ? exact * tolerance_.distance : tolerance_.largest_distance();
-  }
-
-  /// The region of a surface of that type which begins as a given neighbourhood of the seed.
-  /// \param first_fit to the samples of the neighbourhood
-  Region region_of_type(Surface_type type, Index seed, const Patch& start, const Surface_fit& first_fit) {
-    constexpr int most_rounds = 30;
-    // A surface is fitted again each time it has this many times the vertices, until it has grown by 2 % or less: one
-    // that is flooded at once as far as a fit to few vertices leads goes astray. From 1.5 to 4 times at first, 2 to 6
-    // times then, and 1 to 4 % the overlap stays within .001.
-    constexpr std::size_t first_growth = 2, growth = 3;
-    constexpr double little_growth = 1.02;
-    constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
-    const auto needed = static_cast<std::size_t>(degrees_of_freedom(type)) + 1;
-    Region region;
-    constexpr std::size_t work_of_fit = 100;  // see `add_work()`
-    if (start.vertices.size() < needed) return region;
-    add_work(work_of_fit);
-    auto surface = first_fit.fit(type);
-    if (!surface) return region;
-    const Patch* last = &start;
-    std::size_t last_size = start.vertices.size(), limit = first_growth * last_size;
-    for (int round = 0; round < most_rounds; ++round) {
-      flood(seed, *surface, sign_of(*surface, *last), limit, region.patch);
-      last = &region.patch;
-      const std::size_t size = region.patch.vertices.size();
-      if (size < needed) return region;
-      const bool is_whole = size < limit;
-      if (is_whole && static_cast<double>(size) <= little_growth * static_cast<double>(last_size)) break;
-      limit = is_whole ? everything : growth * std::max(limit, size);
-      last_size = size;
-      surface = fitted_again(*surface, patches_.samples_of(region.patch));
-      if (!surface || (round > 0 && has_gone_astray(*surface))) return region;
-    }
-    region.surface = *surface;
-    if (!is_piece_of_free_form(*surface)) region.gain = gain(region);
-    return region;
-  }
-
-  /// 1 if the surface's normals point out of the solid, -1 if into it.
-  double sign_of(const Analytic_surface& surface, const Patch& patch) const {
-    constexpr std::size_t enough_faces = 50;
-    return with_type_of(surface, [&](const auto& s) {
-      double sum = 0;
-      for (std::size_t i = 0; i < patch.faces.size() && i < enough_faces; ++i) {
-        const Index f = patch.faces[i];
-        sum += mesh_.area(f) * s.normal(mesh_.centroid(f)).dot(normal(f));
-      }
-      return sum < 0 ? -1. : 1.;
-    });
-  }
-
-  /// The free faces on a surface that are connected with the seed, until they have so many vertices.
-  void flood(Index seed, const Analytic_surface& surface, double sign, std::size_t most_vertices, Patch& patch) {
-    unseen_ += 2;
-    with_type_of(surface, [&](const auto& s) {
-      const auto is_near = [&](Index v) {  // asked for each face about a vertex, and computed once
-        if (seen_[v] < unseen_)
-          seen_[v] = unseen_ + (std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance() ? 1 : 0);
-        return seen_[v] > unseen_;
-      };
-      const auto lies_on = [&](Index f) {
-        add_work(1);
-        for (const Index v : mesh_.corners(f))
-          if (!is_near(v)) return false;
-        return normal(f).isZero() || sign * s.normal(mesh_.centroid(f)).dot(normal(f)) > least_cosine_[f];
-      };
-      patches_.flood(seed, lies_on, most_vertices, patch);
-    });
-  }
-
-  /// A surface grown on a free form ends where the distance becomes too large; vertices of a true one are exact, unless
-  /// there is noise.
-  bool is_piece_of_free_form(const Analytic_surface& surface) const {
-    return !tolerance_.is_noisy() && surface.residual > exact * tolerance_.distance;
-  }
-
-  /// Whether a region that is still growing will be such a piece.
-  bool has_gone_astray(const Analytic_surface& surface) const {
-    constexpr double astray = 2. / 3;  // of the expected deviation; overlap .9733 at a third, .9749 at all of it
-    return !tolerance_.is_noisy() && is_in_sheet_ && surface.residual > astray * tolerance_.distance;
-  }
-
-  /// The number of vertices explained, each the less the farther it is off, beyond those that determine the surface.
-  double gain(const Region& region) const {
-    return with_type_of(region.surface, [&](const auto& s) {
-      double sum = -s.degrees_of_freedom;
-      for (const Index v : region.patch.vertices) {
-        const double d = s.distance(mesh_.point(v)) / tolerance_.largest_distance();
-        sum += 1 - d * d;
-      }
-      return sum;
-    });
   }
 
   // ---- Regions that compete ----
@@ -475,30 +384,23 @@ class Surface_growing {
     }
   }
 
-  /// Of the expected deviation: vertices of clean surfaces are no farther off. Overlap .9614 at a sixth. At two thirds
-  /// .9856, but .973 in place of .977 and .989 in place of .991 on the same solids meshed evenly (`_5k`, `_30k`), and
-  /// an eighth more segments than there are.
-  static constexpr double exact = 1. / 3;
   /// Of the neighbourhood of a seed, what is as deep in a sheet as it is: overlap .9761 at a quarter, .9753 at all.
   static constexpr double part_about = 0.5;
 
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
   Face_patches patches_;
+  Work_progress work_;
+  Region_growth growth_;
+  Coarse_arcs coarse_arcs_;
   Analytic_regions regions_;
   std::vector<Failure> failures_;      // by face, without noise
   std::vector<double> possible_gain_;  // of a region about each face, as far as is known
   std::vector<std::uint32_t> tries_;   // by face: regions with it that gained too little
-  std::vector<double> least_cosine_;   // by face, of the angle to its surface
-  std::vector<std::uint32_t> seen_;    // by vertex: `unseen_` if it is off the surface that is flooded, 1 more if on it
-  std::uint32_t unseen_ = 0;           // even, and larger from flood to flood
   Surface_samples start_samples_;      // of the present neighbourhood
   bool is_in_sheet_ = false;           // the present seed
   Patch farthest_;                     // the largest of the regions about it that explained nothing
-  Progress progress_;
-  double done_ = 0;        // of the present pass
-  std::size_t taken_ = 0;  // faces, by regions
-  std::size_t work_ = 0;
+  std::size_t taken_ = 0;              // faces, by regions
 };
 
 }  // namespace RW_segmentation::internal
