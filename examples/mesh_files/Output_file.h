@@ -53,11 +53,8 @@ class Output_file final : public Output {
     }
     if (std::filesystem::is_symlink(path_, ignored)) target_ = std::filesystem::canonical(path_, ignored).string();
     if (target_.empty()) target_ = path_;
-    // "x" refuses a name that is taken.
-    do temporary_path_ = target_ + ".part" + std::to_string(std::random_device()());
-    while (!(file_ = std::fopen(temporary_path_.c_str(), "wbx")) && errno == EEXIST);
-    if (!file_) fail();
-    entry_ = Partial_files::add(temporary_path_);
+    while (!create_temporary())
+      if (errno != EEXIST) fail();
   }
 
   ~Output_file() override {
@@ -89,6 +86,18 @@ class Output_file final : public Output {
 
  private:
   [[noreturn]] void fail() const { throw Unwritable_file(path_ + ": " + std::strerror(errno)); }
+
+  /// The name is known before the file is there, lest a signal between the two leaves the file behind.
+  bool create_temporary() {
+    temporary_path_ = target_ + ".part" + std::to_string(std::random_device()());
+    entry_ = Partial_files::add(temporary_path_);
+    file_ = std::fopen(temporary_path_.c_str(), "wbx");  // "x" refuses a name that is taken
+    if (file_) return true;
+    const int error = errno;
+    Partial_files::forget(std::exchange(entry_, nullptr));
+    errno = error;
+    return false;
+  }
 
   std::string path_, target_;
   std::string temporary_path_;  // empty if there is none
