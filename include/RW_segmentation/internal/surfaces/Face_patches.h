@@ -174,20 +174,21 @@ class Face_patches {
         patch.vertices.push_back(v);
       }
   }
-  /// \param leads_on a predicate of a face and the edge that leads to it
+  bool leads_on(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !is_sharp_[edge]; }
+
+  /// \param leads a predicate of a face and the edge that leads to it
   template <class Predicate>
-  Patch collected(Index seed, std::size_t vertices, const Predicate& leads_on) {
+  Patch collected(Index seed, std::size_t vertices, const Predicate& leads) {
     Patch patch;
     start(patch);
     add(patch, seed);
     for (std::size_t i = 0; i < patch.faces.size(); ++i)
       for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i])) {
         if (patch.vertices.size() >= vertices) return patch;
-        if (leads_on(g, e)) add(patch, g);
+        if (leads(g, e)) add(patch, g);
       }
     return patch;
   }
-  bool leads_on(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !is_sharp_[edge]; }
 
   static std::size_t step_of(const std::vector<Index>& all) {
     constexpr std::size_t samples = 80;  // up to twice as many; 40 and 160 give benchmark_engineering the same overlap

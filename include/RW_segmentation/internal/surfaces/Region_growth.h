@@ -69,6 +69,7 @@ class Region_growth {
 
   /// Sets whether regions are parts of a sheet, where all but exact surfaces are those of a free form.
   void set_in_sheet(bool is_in_sheet) { is_in_sheet_ = is_in_sheet; }
+  bool is_in_sheet() const { return is_in_sheet_; }
 
   /// Of the surfaces that regions begin with. Outside of sheets they may have begun across a border.
   double largest_first_residual() const {

@@ -6,13 +6,13 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/Surface_samples.h>
 #include <RW_segmentation/internal/surfaces/Analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/Coarse_arcs.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Region_growth.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
-#include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <boost/container_hash/hash.hpp>
 
@@ -170,8 +170,7 @@ class Surface_growing {
     Region best;
     farthest_ = Patch();
     const Patch about = patches_.neighbourhood(seed, size_about());
-    is_in_sheet_ = is_part_of_sheet(about);
-    growth_.set_in_sheet(is_in_sheet_);
+    growth_.set_in_sheet(is_part_of_sheet(about));
     const std::size_t largest = tolerance_.is_noisy() ? 0 : hash_of(about);
     if (tolerance_.is_noisy() || !has_failed(seed, largest, pass.least_gain)) {
       if (begins_well(best, seed, about, pass)) return best;
@@ -192,7 +191,8 @@ class Surface_growing {
       if (best.gain >= pass.least_gain && !is_noisy) return true;
       if (start.vertices.size() < size) break;
     }
-    return !is_noisy && is_in_sheet_ && (is_found_wider(best, seed, pass) || is_found_farther(best, seed, pass));
+    return !is_noisy && growth_.is_in_sheet() &&
+           (is_found_wider(best, seed, pass) || is_found_farther(best, seed, pass));
   }
 
   /// Widens a neighbourhood that is all but flat until its curvature shows.
@@ -323,8 +323,8 @@ class Surface_growing {
     constexpr double doubt = 1.3;  // how many times as much may be gained about another face; overlap .9733 at 2
     constexpr double part_of_farthest = 0.25;  // at a half, overlap .9750; at a tenth .9744 in 1.03 times the time
     if (tolerance_.is_noisy()) expect_no_more_of(seed, region);
-    if (pass.spreads_seeds && !is_in_sheet_ && !(region.gain > 0)) expect_nothing_next_to(seed);
-    if (!is_in_sheet_ || (tolerance_.is_noisy() && region.gain > 0)) return;
+    if (pass.spreads_seeds && !growth_.is_in_sheet() && !(region.gain > 0)) expect_nothing_next_to(seed);
+    if (!growth_.is_in_sheet() || (tolerance_.is_noisy() && region.gain > 0)) return;
     const double gain = doubt * std::max(region.gain, 0.);
     expect_no_more_in(patches_.neighbourhood(seed, size_about()), part_about, gain);
     if (!(region.gain > 0)) expect_no_more_in(farthest_, part_of_farthest, gain);
@@ -398,7 +398,6 @@ class Surface_growing {
   std::vector<double> possible_gain_;  // of a region about each face, as far as is known
   std::vector<std::uint32_t> tries_;   // by face: regions with it that gained too little
   Surface_samples start_samples_;      // of the present neighbourhood
-  bool is_in_sheet_ = false;           // the present seed
   Patch farthest_;                     // the largest of the regions about it that explained nothing
   std::size_t taken_ = 0;              // faces, by regions
 };
