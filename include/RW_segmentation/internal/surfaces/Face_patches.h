@@ -58,9 +58,7 @@ class Face_patches {
 
   /// As above, but across all edges up to an angle.
   Patch neighbourhood_within(double angle, Index seed, std::size_t vertices) {
-    return collected(seed, vertices, [&](Index g, Index e) {
-      return !is_marked(g) && is_free(g) && !mesh_.is_wall(e) && angle_[e] <= angle;
-    });
+    return collected(seed, vertices, [&](Index g, Index e) { return is_open(g, e) && angle_[e] <= angle; });
   }
 
   /// As above, but across the flattest edges first: the way with the smallest angle leads on (Prim), whatever lies behind it,
@@ -91,7 +89,7 @@ class Face_patches {
     add(patch, seed);
     for (std::size_t i = 0; i < patch.faces.size() && patch.vertices.size() < most_vertices; ++i)
       for (const auto& [g, e] : mesh_.graph().neighbours(patch.faces[i]))
-        if (!is_marked(g) && is_free(g) && !mesh_.is_wall(e) && holds(g)) add(patch, g);
+        if (is_open(g, e) && holds(g)) add(patch, g);
   }
 
   /// The patch of given faces.
@@ -174,6 +172,8 @@ class Face_patches {
         patch.vertices.push_back(v);
       }
   }
+  /// Whether a free face that is not in the patch yet lies behind an edge that is no wall.
+  bool is_open(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !mesh_.is_wall(edge); }
   bool leads_on(Index face, Index edge) const { return !is_marked(face) && is_free(face) && !is_sharp_[edge]; }
 
   /// \param leads a predicate of a face and the edge that leads to it

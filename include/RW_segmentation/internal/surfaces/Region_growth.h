@@ -5,11 +5,11 @@
 
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
+#include <RW_segmentation/internal/surfaces/Work_progress.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,29 +19,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// Reports progress after some milliseconds of work, whose unit is the time in which a face is flooded.
-class Work_progress {
- public:
-  void begin(const Progress& progress) {
-    progress_ = progress;
-    progress_(0);
-  }
-  /// \param part that is done, to be reported after the next work
-  void set_done(double part) { done_ = part; }
-  void add(std::size_t faces) {
-    constexpr std::size_t between_reports = 50000;
-    work_ += faces;
-    if (work_ < between_reports) return;
-    work_ = 0;
-    progress_(done_);
-  }
-
- private:
-  Progress progress_;
-  double done_ = 0;
-  std::size_t work_ = 0;
-};
 
 /// Grows one region on one surface: the surface is fitted to the neighbourhood of a face, flooded as far as vertices and
 /// normals agree, fitted to what was flooded, and so on, until it grows no more.

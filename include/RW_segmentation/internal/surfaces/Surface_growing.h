@@ -13,6 +13,7 @@
 #include <RW_segmentation/internal/surfaces/Region_growth.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/Work_progress.h>
 
 #include <boost/container_hash/hash.hpp>
 

@@ -70,7 +70,7 @@ struct Surface_tolerance {
     return is_noisy() ? normal_angle[faces[0]] + normal_angle[faces[1]] : 0;
   }
 
-  /// The angle between two faces that no analytic surface and no noise explains.
+  /// The angle between two faces that no noise explains and no analytic surface, but for those of `Coarse_arcs`.
   double sharp_angle(const std::array<Index, 2>& faces) const {
     constexpr double sharp = radians(40);  // at 32, 1.4 times the segments (`_5k`); at 50, overlap .9737 (`_t`)
     return std::max(sharp, angle_of_noise(faces));
