@@ -4,6 +4,7 @@
 
 #include "segment_mesh/Options.h"
 #include "segment_mesh/Task.h"
+#include "segment_mesh/check_options.h"
 #include "segment_mesh/command_line.h"
 #include "segment_mesh/limits.h"
 #include "segment_mesh/man_page.h"

@@ -5,6 +5,7 @@
 #include "../mesh_files/write_mesh.h"
 #include "Cad_format.h"
 #include "Closest_face.h"
+#include "check_options.h"
 #include "html_page.h"
 #include "report.h"
 #include "signals.h"

@@ -13,6 +13,7 @@
 #include "Segmentation.h"
 #include "Stages.h"
 #include "Task.h"
+#include "check_options.h"
 #include "close_parts.h"
 #include "failure.h"
 #include "read_input.h"
