@@ -23,22 +23,19 @@ RW_SEGMENTATION_INLINE void require_noise(double noise) {
 
 RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {
   require_noise(noise);
-  if (noise >= 0) return {mesh, noise};
   // Where noise is large beside the edges, it hides in neighbourhoods that end at sharp ones: each estimate tells the next
   // how sharp an edge may be. Noise of a third of the edges takes three of them; one alone finds .4 of it.
   constexpr int most_estimates = 8;
   constexpr double least_growth = 1.05;
-  Surface_tolerance tolerance(mesh, 0);
-  for (int i = 0; i < most_estimates; ++i) {
-    const double deviation = Noise_estimate(mesh, tolerance).standard_deviation();
-    if (deviation <= least_growth * tolerance.noise) break;
+  Surface_tolerance tolerance(mesh, std::max(noise, 0.));
+  for (int i = 0;; ++i) {
+    Noise_estimate estimate(mesh, tolerance);
+    const bool is_asked = noise < 0 && i < most_estimates;
+    const double deviation = is_asked ? estimate.standard_deviation() : tolerance.noise;
+    if (deviation <= least_growth * tolerance.noise)
+      return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, estimate.kind()) : tolerance;
     tolerance = Surface_tolerance(mesh, deviation);
   }
-  return tolerance;
-}
-
-RW_SEGMENTATION_INLINE bool has_independent_noise(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
-  return tolerance.is_noisy() && Noise_estimate(mesh, tolerance).is_independent();
 }
 
 RW_SEGMENTATION_INLINE std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {

@@ -14,7 +14,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -38,35 +41,28 @@ class Noise_estimate {
 
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {
+    constexpr double correction = 1.25;  // from the low quantile of the best of five fits
     if (!expects_noise_ && is_exact()) return 0;
-    const double deviation = deviation_of_many(many_vertices);
-    return std::max(correction * deviation, deviation_of_smooth_noise(many_vertices, deviation));
+    const std::size_t vertices = kind() == Noise_kind::smooth ? *size_beyond_smooth_noise() : many_vertices;
+    return std::max(correction * deviation_of(vertices), deviation_that_grows_no_more());
   }
 
-  /// Whether the deviations of neighbouring vertices are independent; those of scanners are alike. What a fit leaves of
-  /// independent ones is opposite rather than alike. Told by the quarter of the neighbourhoods that lie on one surface best.
-  /// Mean correlations on the made solids of `benchmark_engineering` under noise of .1 and .3 %: -.15 to .01, but .05 on a
-  /// kernel's cone; as if scanned .04 to .17.
-  bool is_independent() {
-    constexpr double part = 0.25;
-    std::vector<std::array<double, 2>> fits;  // deviation and correlation
-    for_each_trial([&](Index f) {
-      const Face_patches::Patch patch = patches_.neighbourhood(f, many_vertices);
-      if (const auto surface = closest_surface_of(patch))
-        fits.push_back({surface->residual, correlation(*surface, patch)});
-      return true;
-    });
-    if (fits.empty()) return false;
-    std::sort(fits.begin(), fits.end());
-    fits.resize(1 + static_cast<std::size_t>(part * static_cast<double>(fits.size() - 1)));
-    double sum = 0;
-    for (const auto& fit : fits) sum += fit[1];
-    return sum <= 0;
+  /// Smooth noise is told from a free form only on meshes with many neighbourhoods.
+  Noise_kind kind() {
+    constexpr std::size_t least_vertices = 1000;
+    if (is_independent()) return Noise_kind::independent;
+    const bool is_smooth = mesh_.points().size() >= least_vertices && size_beyond_smooth_noise();
+    return is_smooth ? Noise_kind::smooth : Noise_kind::unclear;
   }
 
  private:
   static constexpr std::size_t many_vertices = 30;
-  static constexpr double correction = 1.25;  // from the low quantile of the best of five fits
+
+  /// How well a surface fits to a neighbourhood.
+  struct Trial {
+    double deviation;
+    double correlation;  // of the deviations at the ends of an edge
+  };
 
   /// Whether some small neighbourhoods lie on a surface: known as soon as enough of them do.
   bool is_exact() {
@@ -87,45 +83,75 @@ class Noise_estimate {
            are_some_exact([&](Index f) { return patches_.flattest_neighbourhood(f, few_vertices); });
   }
 
-  /// Of neighbourhoods of so many vertices.
-  double deviation_of_many(std::size_t vertices) {
-    constexpr double part = 0.05;
-    return quantile(part, [&](Index f) { return patches_.neighbourhood(f, vertices); });
+  /// Whether the deviations of neighbouring vertices are independent; those of scanners are alike. What a fit leaves of
+  /// independent ones is opposite rather than alike. Told by the quarter of the neighbourhoods that lie on one surface best.
+  /// Mean correlations on the made solids of `benchmark_engineering` under noise of .1 and .3 %: -.15 to .01, but .05 on a
+  /// kernel's cone; as if scanned .04 to .17.
+  bool is_independent() {
+    constexpr double part = 0.25;
+    const std::vector<Trial>& trials = trials_of(many_vertices);
+    if (trials.empty()) return false;
+    const auto best = 1 + static_cast<std::ptrdiff_t>(part * static_cast<double>(trials.size() - 1));
+    return std::accumulate(trials.begin(), trials.begin() + best, 0.,
+                           [](double sum, const Trial& trial) { return sum + trial.correlation; }) <= 0;
   }
 
-  /// A scanner's noise is smooth: small neighbourhoods follow it. What wider ones leave unexplained grows less and less until
-  /// it is all of the noise. On a free form, or where neighbourhoods reach beyond their surface, it does not cease to grow:
-  /// 0 then.
-  double deviation_of_smooth_noise(std::size_t vertices, double deviation) {
+  /// What neighbourhoods of so many vertices leave unexplained: a low quantile, since most of them lie on several surfaces
+  /// on a coarse mesh; 0 if there are none.
+  double deviation_of(std::size_t vertices) {
+    constexpr double part = 0.05;
+    const std::vector<Trial>& trials = trials_of(vertices);
+    return trials.empty() ? 0 : trials[static_cast<std::size_t>(part * static_cast<double>(trials.size()))].deviation;
+  }
+
+  /// How many times as much that is as with half the vertices.
+  double growth_to(std::size_t vertices) {
+    return deviation_of(vertices) / std::max(deviation_of(vertices / 2), std::numeric_limits<double>::min());
+  }
+
+  /// Small neighbourhoods follow smooth noise: what wider ones leave unexplained grows less and less. On a free form, or
+  /// where neighbourhoods reach beyond their surface, it does not cease to grow.
+  /// \returns how many vertices neighbourhoods have that leave most of smooth noise unexplained; none if it is no such noise
+  std::optional<std::size_t> size_beyond_smooth_noise() {
+    // Made solids as if scanned, smoothed by two to six steps: 1.3 to 1.54 at one of the two sizes, but on a flange. CGAL's
+    // statues: 1.58 to 2.7, but for a scanned armadillo, a femur and a bull with 1.38 to 1.44.
+    constexpr double largest_growth = 1.55;
+    for (const std::size_t vertices : {2 * many_vertices, 4 * many_vertices})
+      if (growth_to(vertices) <= largest_growth) return vertices;
+    return std::nullopt;
+  }
+
+  /// The deviation of neighbourhoods so wide that wider ones leave no more unexplained; 0 if they always do.
+  double deviation_that_grows_no_more() {
     constexpr std::size_t most_vertices = 500;
     constexpr double first_growth = 1.45;  // that twice the vertices may bring; 1.4 for noise smoothed by two steps
     constexpr double no_growth = 1.15;     // what it is for independent noise
-    constexpr double correction = 1.15;    // as for many vertices
+    constexpr double correction = 1.15;    // from the low quantile
     double last_growth = first_growth;
-    for (vertices *= 2; vertices < most_vertices; vertices *= 2) {
-      const double wider = deviation_of_many(vertices);
-      const double growth = wider / std::max(deviation, std::numeric_limits<double>::min());
-      if (growth <= no_growth) return correction * wider;
+    for (std::size_t vertices = 2 * many_vertices; vertices < most_vertices; vertices *= 2) {
+      const double growth = growth_to(vertices);
+      if (growth <= no_growth) return correction * deviation_of(vertices);
       if (!(growth < last_growth)) break;
       last_growth = growth;
-      deviation = wider;
     }
     return 0;
   }
 
-  /// A quantile of the least deviations of neighbourhoods, most of which lie on several surfaces on a coarse mesh; 0 if
-  /// there are none.
-  template <class Neighbourhood>
-  double quantile(double part, const Neighbourhood& neighbourhood_of) {
-    std::vector<double> deviations;
+  /// Neighbourhoods of so many vertices all over the mesh, those that lie on one surface best first.
+  const std::vector<Trial>& trials_of(std::size_t vertices) {
+    const auto [place, is_new] = trials_.try_emplace(vertices);
+    std::vector<Trial>& trials = place->second;
+    if (!is_new) return trials;
     for_each_trial([&](Index f) {
-      if (const auto surface = closest_surface_of(neighbourhood_of(f))) deviations.push_back(surface->residual);
+      const Face_patches::Patch patch = patches_.neighbourhood(f, vertices);
+      if (const auto surface = closest_surface_of(patch))
+        trials.push_back({surface->residual, correlation(*surface, patch)});
       return true;
     });
-    if (deviations.empty()) return 0;
-    const auto place = deviations.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(deviations.size()));
-    std::nth_element(deviations.begin(), place, deviations.end());
-    return *place;
+    std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
+      return std::pair(a.deviation, a.correlation) < std::pair(b.deviation, b.correlation);
+    });
+    return trials;
   }
 
   /// Calls a function with some faces, evenly in their order, as long as it returns true.
@@ -191,6 +217,7 @@ class Noise_estimate {
   std::size_t number_of_faces_;
   bool expects_noise_;
   Face_patches patches_;
+  std::map<std::size_t, std::vector<Trial>> trials_;  // by vertices of the neighbourhoods
 };
 
 }  // namespace RW_segmentation::internal

@@ -74,7 +74,7 @@ inline Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surfa
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
-  const bool is_independent = has_independent_noise(mesh, tolerance);
+  const bool is_independent = tolerance.is_noisy() && tolerance.noise_kind == Noise_kind::independent;
   if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, is_independent, progress);
   Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, is_independent, progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
