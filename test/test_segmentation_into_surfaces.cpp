@@ -305,9 +305,9 @@ TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
 }
 
 TEST(SegmentationIntoSurfaces, TakesNoFreeFormForSmoothNoise) {
-  for (const double waves : {1., 2., 4.}) {
+  for (const double waves : {2., 3., 4.}) {
     solids::Builder builder("waves");
-    builder.grid(builder.add({}), 80, 80, [&](double u, double v) -> solids::Point {
+    builder.grid(builder.add({}), 40, 40, [&](double u, double v) -> solids::Point {
       return {u, v, 0.1 / waves * (std::sin(waves * (7 * u + 2 * v)) + std::cos(waves * (5 * v - 3 * u * v)))};
     });
     const internal::Surface_tolerance tolerance = tolerance_of(std::move(builder).solid());

@@ -41,15 +41,16 @@ class Noise_estimate {
 
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {
-    constexpr double correction = 1.25;  // from the low quantile of the best of five fits
+    constexpr double correction = 1.25;  // from a low quantile of the best of five fits
     if (!expects_noise_ && is_exact()) return 0;
     const std::size_t vertices = kind() == Noise_kind::smooth ? *size_beyond_smooth_noise() : many_vertices;
     return std::max(correction * deviation_of(vertices), deviation_that_grows_no_more());
   }
 
-  /// Smooth noise is told from a free form only on meshes with many neighbourhoods.
+  /// Rounding is no noise, and smooth noise is told from a free form only on meshes with many neighbourhoods.
   Noise_kind kind() {
     constexpr std::size_t least_vertices = 1000;
+    if (deviation_of(many_vertices) <= Surface_tolerance::cad_exactness) return Noise_kind::unclear;
     if (is_independent()) return Noise_kind::independent;
     const bool is_smooth = mesh_.points().size() >= least_vertices && size_beyond_smooth_noise();
     return is_smooth ? Noise_kind::smooth : Noise_kind::unclear;
@@ -69,7 +70,7 @@ class Noise_estimate {
     constexpr std::size_t few_vertices = 12;
     constexpr double part = 0.02;
     const auto are_some_exact = [&](const auto& neighbourhood_of) {
-      constexpr double correction = 2.5;  // likewise
+      constexpr double correction = 2.5;  // from a low quantile of the best of five fits
       std::size_t measured = 0, exact = 0;
       for_each_trial([&](Index f) {
         const auto surface = closest_surface_of(neighbourhood_of(f));
@@ -126,7 +127,7 @@ class Noise_estimate {
     constexpr std::size_t most_vertices = 500;
     constexpr double first_growth = 1.45;  // that twice the vertices may bring; 1.4 for noise smoothed by two steps
     constexpr double no_growth = 1.15;     // what it is for independent noise
-    constexpr double correction = 1.15;    // from the low quantile
+    constexpr double correction = 1.15;    // from a low quantile of the best of five fits
     double last_growth = first_growth;
     for (std::size_t vertices = 2 * many_vertices; vertices < most_vertices; vertices *= 2) {
       const double growth = growth_to(vertices);
