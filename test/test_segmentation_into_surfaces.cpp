@@ -311,8 +311,8 @@ TEST(SegmentationIntoSurfaces, TakesNoFreeFormForSmoothNoise) {
       return {u, v, 0.1 / waves * (std::sin(waves * (7 * u + 2 * v)) + std::cos(waves * (5 * v - 3 * u * v)))};
     });
     const internal::Surface_tolerance tolerance = tolerance_of(std::move(builder).solid());
-    ASSERT_TRUE(
-        tolerance.is_noisy());  // what analytic surfaces leave unexplained is taken for noise, but for no smooth one
+    // What analytic surfaces leave unexplained is taken for noise, but for no smooth one.
+    ASSERT_TRUE(tolerance.is_noisy());
     EXPECT_EQ(tolerance.noise_kind, internal::Noise_kind::unclear) << waves;
   }
 }
