@@ -24,7 +24,7 @@ namespace RW_segmentation::internal {
 
 /// Estimates how far vertices are off their surfaces from what neighbourhoods of faces leave unexplained. Without noise
 /// some small ones lie on a surface exactly, if they avoid edges, even on a coarse mesh. Under noise none does, and
-/// larger ones vary less.
+/// larger ones vary less. Also tells what kind of noise it is.
 class Noise_estimate {
  public:
   using Index = Dual_mesh::Index;

@@ -43,6 +43,7 @@ struct Surface_tolerance {
   Surface_tolerance() = default;
 
   /// \param deviation standard deviation of the vertices
+  /// \param kind of their noise, if they have any
   Surface_tolerance(const Dual_mesh& mesh, double deviation, Noise_kind kind = Noise_kind::unclear) : noise_kind(kind) {
     // Half of what kernels let an arc turn along an edge. At 9 degrees, overlap .9737 in place of .9766 (`_5k`); at 16,
     // .9807, and .9749 in place of .9744 (`_t`).
