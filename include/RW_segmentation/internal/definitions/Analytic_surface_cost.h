@@ -27,11 +27,13 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   // how sharp an edge may be. Noise of a third of the edges takes three of them; one alone finds .4 of it.
   constexpr int most_estimates = 8;
   constexpr double least_growth = 1.05;
-  Surface_tolerance tolerance(mesh, std::max(noise, 0.));
+  const bool is_given = noise >= 0;
+  Surface_tolerance tolerance(mesh, is_given ? noise : 0);
+  if (is_given && !tolerance.is_noisy()) return tolerance;
   for (int i = 0;; ++i) {
     Noise_estimate estimate(mesh, tolerance);
-    const bool is_asked = noise < 0 && i < most_estimates;
-    const double deviation = is_asked ? estimate.standard_deviation() : tolerance.noise;
+    const bool is_settled = is_given || i == most_estimates;
+    const double deviation = is_settled ? tolerance.noise : estimate.standard_deviation();
     if (deviation <= least_growth * tolerance.noise)
       return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, estimate.kind()) : tolerance;
     tolerance = Surface_tolerance(mesh, deviation);

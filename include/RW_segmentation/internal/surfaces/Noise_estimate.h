@@ -10,7 +10,6 @@
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -86,8 +85,8 @@ class Noise_estimate {
 
   /// Whether the deviations of neighbouring vertices are independent; those of scanners are alike. What a fit leaves of
   /// independent ones is opposite rather than alike. Told by the quarter of the neighbourhoods that lie on one surface best.
-  /// Mean correlations on the made solids of `benchmark_engineering` under noise of .1 and .3 %: -.15 to .01, but .05 on a
-  /// kernel's cone; as if scanned .04 to .17.
+  /// Mean correlations on the made solids of `benchmark_engineering` under noise of .3 %: -.17 to -.01 evenly meshed, up to .1
+  /// on two of eight as kernels mesh them; as if scanned under noise of .1 % .06 to .17, on CAD solids .01 to .18.
   bool is_independent() {
     constexpr double part = 0.25;
     const std::vector<Trial>& trials = trials_of(many_vertices);
@@ -114,8 +113,8 @@ class Noise_estimate {
   /// where neighbourhoods reach beyond their surface, it does not cease to grow.
   /// \returns how many vertices neighbourhoods have that leave most of smooth noise unexplained; none if it is no such noise
   std::optional<std::size_t> size_beyond_smooth_noise() {
-    // Made solids as if scanned, smoothed by two to six steps: 1.3 to 1.54 at one of the two sizes, but on a flange. CGAL's
-    // statues: 1.58 to 2.7, but for a scanned armadillo, a femur and a bull with 1.38 to 1.44.
+    // Made solids as if scanned, smoothed by two to four steps: 1.22 to 1.54 at one of the two sizes, but for a flange after
+    // three and four. CGAL's statues: 1.58 to 2.7 at both, but for an armadillo, a bull, a femur and bones, 1.12 to 1.44.
     constexpr double largest_growth = 1.55;
     for (const std::size_t vertices : {2 * many_vertices, 4 * many_vertices})
       if (growth_to(vertices) <= largest_growth) return vertices;

@@ -35,10 +35,10 @@ struct Surface_tolerance {
   /// (`_t`); at twice, .9756, but .9742 in place of .9766 (`_5k`).
   static constexpr double cad_exactness = 1e-5;
 
-  double noise = 0;  ///< standard deviation of the vertices, 0 if it is below `distance`
-  Noise_kind noise_kind = Noise_kind::unclear;
-  double distance = 0;               ///< the standard deviation that is reckoned with
-  std::vector<double> normal_angle;  ///< between a face and the surface that it is part of, in radians
+  double noise = 0;                             ///< standard deviation of the vertices, 0 if it is below `distance`
+  Noise_kind noise_kind = Noise_kind::unclear;  ///< where there is noise
+  double distance = 0;                          ///< the standard deviation that is reckoned with
+  std::vector<double> normal_angle;             ///< between a face and the surface that it is part of, in radians
 
   Surface_tolerance() = default;
 
