@@ -14,7 +14,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC errs about these in optimised code of CGAL and Eigen.
   target_compile_options(RW_segmentation_development INTERFACE -Wno-error=maybe-uninitialized)
   # It collects its garbage from so many kilobytes on, in place of 128 MB: files of segment_mesh and of the tests take .85 of
-  # the time then, and up to a third more memory, 3 GB at most.
+  # the time then, and up to a third more memory.
   target_compile_options(RW_segmentation_development INTERFACE --param=ggc-min-heapsize=1500000)
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")

@@ -3,7 +3,7 @@
 #ifndef SEGMENT_MESH_CHECK_OPTIONS_H
 #define SEGMENT_MESH_CHECK_OPTIONS_H
 
-// What options cannot have together, told as CLI11 tells what it refuses itself.
+// What options cannot have together and what their texts stand for, refused as CLI11 refuses what it does not take.
 
 #include "../mesh_files/Format.h"
 #include "../mesh_files/Output_file.h"
