@@ -113,8 +113,9 @@ class Noise_estimate {
   /// where neighbourhoods reach beyond their surface, it does not cease to grow.
   /// \returns how many vertices neighbourhoods have that leave most of smooth noise unexplained; none if it is no such noise
   std::optional<std::size_t> size_beyond_smooth_noise() {
-    // Made solids as if scanned, smoothed by two to four steps: 1.22 to 1.54 at one of the two sizes, but for a flange after
-    // three and four. CGAL's statues: 1.58 to 2.7 at both, but for an armadillo, a bull, a femur and bones, 1.12 to 1.44.
+    // Made solids as if scanned, smoothed by two to four steps: 1.22 to 1.54 at one of the two sizes, but for a flange, which
+    // is narrower, 1.43 and more. CGAL's statues: 1.58 to 2.7 at both, but for an armadillo, a bull, a femur and bones, 1.12
+    // to 1.44.
     constexpr double largest_growth = 1.55;
     for (const std::size_t vertices : {2 * many_vertices, 4 * many_vertices})
       if (growth_to(vertices) <= largest_growth) return vertices;
