@@ -283,6 +283,45 @@ TEST(SegmentationIntoSurfaces, FindsFilletsBesidePlanesUnderNoise) {
   }
 }
 
+/// A block whose top is in flat pleats of two by six squares each, which turn by 35 degrees against each other: less than at
+/// sharp edges.
+static solids::Solid pleated_block(std::size_t pleats) {
+  constexpr double square = 0.1, slope = solids::half_turn * 17.5 / 180;
+  constexpr std::size_t across = 6, down = 4;
+  solids::Builder builder("pleated_block");
+  const solids::Point y = across * square * solids::Point::UnitY(), z = down * square * solids::Point::UnitZ();
+  const double run = 2 * square * std::cos(slope), length = run * static_cast<double>(pleats);
+  // Rises and falls in turns.
+  const auto top = [&](double x) -> solids::Point {
+    const double part = std::fmod(x / run, 2);
+    return {x, 0, run * std::tan(slope) * (part < 1 ? part : 2 - part)};
+  };
+  const auto ground = [&](double x) -> solids::Point { return x * solids::Point::UnitX() - z; };
+  builder.grid(builder.add({}), across, 2 * pleats,
+               [&](double u, double v) -> solids::Point { return ground(length * v) + u * y; });
+  builder.grid(builder.add({}), down, across,
+               [&](double u, double v) -> solids::Point { return u * top(0) + (u - 1) * z + v * y; });
+  builder.grid(builder.add({}), across, down, [&](double u, double v) -> solids::Point {
+    return ground(length) + u * y + v * (top(length) - ground(length));
+  });
+  builder.grid(builder.add({}), 2 * pleats, down,
+               [&](double u, double v) -> solids::Point { return (1 - v) * ground(length * u) + v * top(length * u); });
+  builder.grid(builder.add({}), down, 2 * pleats, [&](double u, double v) -> solids::Point {
+    return (1 - u) * ground(length * v) + u * top(length * v) + y;
+  });
+  for (std::size_t i = 0; i < pleats; ++i)
+    builder.grid(builder.add({}), 2, across,
+                 [&](double u, double v) -> solids::Point { return top(run * (static_cast<double>(i) + u)) + v * y; });
+  return std::move(builder).solid();
+}
+
+TEST(SegmentationIntoSurfaces, FindsFacesOfFewVerticesUnderNoise) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const solids::Solid solid = solids::with_noise(pleated_block(12), 0.1, seed);
+    for (const double overlap : best_overlaps(solid, segments_of(solid))) EXPECT_GE(overlap, 0.75) << seed;
+  }
+}
+
 TEST(SegmentationIntoSurfaces, FindsMostFacesOfScans) {
   std::vector<solids::Solid> scans;
   for (const solids::Solid& clean : solids::all(solids::even(0.1))) scans.push_back(solids::scanned(clean, 0.1));

@@ -70,6 +70,7 @@ struct Surface_tolerance {
   }
 
   bool is_noisy() const { return noise > 0; }
+  bool has_independent_noise() const { return is_noisy() && noise_kind == Noise_kind::independent; }
 
   /// What a vertex is allowed: three deviations, or less under noise, which would hide smooth joints otherwise.
   double largest_distance() const {

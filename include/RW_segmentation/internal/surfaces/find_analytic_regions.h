@@ -20,13 +20,12 @@
 namespace RW_segmentation::internal {
 
 /// The regions that `Surface_growing` and `Surface_proposals` find on the faces themselves.
-/// \param is_independent whether there is noise, and of one vertex independent of its neighbours'
-inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_tolerance& tolerance, bool is_independent,
+inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                          const Progress& progress) {
   constexpr int most_proposals = 2;  // times: borders that have moved show others
   Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
-  if (!is_independent) return regions;
+  if (!tolerance.has_independent_noise()) return regions;
   for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).run(progress); ++i)
     Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
@@ -49,11 +48,10 @@ inline Analytic_regions carried_back(const Analytic_regions& triangles, const Fa
 
 /// The regions of the triangles that the faces are cut into, whose sides are not longer than a given length.
 inline Analytic_regions regions_of_triangles(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
-                                             double longest_side, bool is_independent, const Progress& progress) {
+                                             double longest_side, const Progress& progress) {
   const Face_refinement refinement(mesh, longest_side);
-  return carried_back(
-      regions_of_faces(refinement.mesh(), tolerance.of_parts(refinement.faces()), is_independent, progress), refinement,
-      mesh.number_of_faces());
+  return carried_back(regions_of_faces(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress), refinement,
+                      mesh.number_of_faces());
 }
 
 /// The length that triangles may have so that about `most` of them make up the faces, and at least `least`. Halved again
@@ -74,9 +72,8 @@ inline Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surfa
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
-  const bool is_independent = tolerance.is_noisy() && tolerance.noise_kind == Noise_kind::independent;
-  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, is_independent, progress);
-  Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, is_independent, progress);
+  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, progress);
+  Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
 }
