@@ -143,7 +143,9 @@ class Surface_proposals {
       patches.push_back(std::move(patch));
     }
     const auto is_bad = [&](Index f) { return narrow_badness_[f] >= explained && regions_.region_of_face[f] != none; };
-    patches_.flood(seed, is_bad, most_vertices, patches.emplace_back());
+    Patch badly_explained;
+    patches_.flood(seed, is_bad, most_vertices, badly_explained);
+    if (badly_explained.vertices.size() >= fewest_vertices) patches.push_back(std::move(badly_explained));
     return patches;
   }
 
