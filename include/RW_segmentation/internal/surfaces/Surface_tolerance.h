@@ -20,9 +20,10 @@ constexpr double radians(double degrees) { return degrees * (3.14159265358979323
 
 /// What the deviations of neighbouring vertices from their surfaces have in common.
 enum class Noise_kind {
-  independent,  ///< nothing
-  smooth,       ///< most: noise of a scanner, or smoothed noise
-  unclear,      ///< a free form may be all there is
+  independent,            ///< nothing
+  seemingly_independent,  ///< nothing that shows: on coarse meshes, or after one step of smoothing
+  smooth,                 ///< most: noise of a scanner, or smoothed noise
+  unclear,                ///< a free form may be all there is
 };
 
 /// How far a mesh may be from the surfaces it approximates. Lengths are parts of the diagonal of its bounding box.
@@ -71,6 +72,9 @@ struct Surface_tolerance {
 
   bool is_noisy() const { return noise > 0; }
   bool has_independent_noise() const { return is_noisy() && noise_kind == Noise_kind::independent; }
+  bool may_have_independent_noise() const {
+    return has_independent_noise() || (is_noisy() && noise_kind == Noise_kind::seemingly_independent);
+  }
 
   /// What a vertex is allowed: three deviations, or less under noise, which would hide smooth joints otherwise.
   double largest_distance() const {

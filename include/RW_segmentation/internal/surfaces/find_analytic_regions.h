@@ -25,7 +25,7 @@ inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_to
   constexpr int most_proposals = 2;  // times: borders that have moved show others
   Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
-  if (!tolerance.has_independent_noise()) return regions;
+  if (!tolerance.may_have_independent_noise()) return regions;
   for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).run(progress); ++i)
     Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
