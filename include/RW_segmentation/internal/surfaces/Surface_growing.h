@@ -104,7 +104,8 @@ class Surface_growing {
   std::vector<Pass> passes() const {
     // The first pass over fine arcs takes half to nine tenths of the time, for the meshes of benchmark/benchmark_defects.
     constexpr double first = 0.6, other = 0.1;
-    // Under noise of .1 % CAD solids (`_5k`) have overlap .885; .879 without the last pass, .855 without the last two.
+    // With noise of .1 % on CAD solids (`_5k`), overlap .885 if all of it is taken for independent; .879 without the last
+    // pass, .855 without the last two.
     if (tolerance_.has_independent_noise())
       return {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}, {other, 12}, {other, 6}};
     if (tolerance_.is_noisy()) return {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}};
