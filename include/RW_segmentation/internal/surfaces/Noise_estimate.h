@@ -49,7 +49,7 @@ class Noise_estimate {
   /// Rounding is no noise, and smooth noise is told from a free form only on meshes with many neighbourhoods.
   Noise_kind kind() {
     constexpr std::size_t least_vertices = 1000;
-    // Mean correlations of independent noise of .05 to .3 % on evenly meshed CAD solids (`_5k`): -.15 to -.08, and up to -.01 in
+    // Mean correlations of independent noise of .05 to .3 % on evenly meshed CAD solids (`_5k`): -.15 to -.08, and up to .05 in
     // 9 of 84 cases. After one step of smoothing: -.076 and more.
     constexpr double independent = -0.08;
     if (deviation_of(many_vertices) <= Surface_tolerance::cad_exactness) return Noise_kind::unclear;
