@@ -60,9 +60,12 @@ class Surface_growing {
   /// Grows all regions, once.
   Analytic_regions regions(const Progress& progress) {
     const std::vector<Index> order = largest_first();
+    const std::vector<Pass> all = passes();
+    const double whole =
+        std::accumulate(all.begin(), all.end(), 0., [](double sum, const Pass& pass) { return sum + pass.part; });
     double begin = 0;
-    for (const Pass& pass : passes()) {
-      const double end = std::min(1., begin + pass.part);
+    for (const Pass& pass : all) {
+      const double end = std::min(1., begin + pass.part / whole);
       run(pass, order, progress.part(begin, end));
       begin = end;
     }
@@ -84,7 +87,7 @@ class Surface_growing {
   /// Which regions are taken: those that gain enough, about round neighbourhoods of so many vertices at least or along
   /// narrow ones, too.
   struct Pass {
-    double part;  // of the time
+    double part;  // of the time, beside those of the other passes
     double least_gain;
     std::size_t smallest_start = 0;  // smaller ones happen to lie on surfaces all over a free form
     bool along_strips = false;
@@ -100,15 +103,17 @@ class Surface_growing {
   }
 
   /// By chance, noisy vertices lie on a surface that was fitted to few of them, and pieces of a large surface on others:
-  /// the largest come first, and the smallest not at all where noise is smooth.
+  /// the largest come first, and the smallest only where noise is independent.
   std::vector<Pass> passes() const {
     // The first pass over fine arcs takes half to nine tenths of the time, for the meshes of benchmark/benchmark_defects.
     constexpr double first = 0.6, other = 0.1;
-    // With noise of .1 % on CAD solids (`_5k`), overlap .885 if all of it is taken for independent; .879 without the last
-    // pass, .855 without the last two.
-    if (tolerance_.has_independent_noise())
-      return {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}, {other, 12}, {other, 6}};
-    if (tolerance_.is_noisy()) return {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}};
+    if (tolerance_.is_noisy()) {
+      std::vector<Pass> noisy = {{first, 1000}, {other, 400}, {other, 160}, {other, 64}, {other, 24}};
+      // CAD solids (`_5k`) under noise of .1 %, all of it taken for independent: overlap .885; .879 without the last pass,
+      // .855 without both.
+      if (tolerance_.has_independent_noise()) noisy.insert(noisy.end(), {{other, 12}, {other, 6}});
+      return noisy;
+    }
     // 12 vertices: overlap .9749 at 6, with more segments that are none, .9700 at 24; 3: .9744 at 1.5, .9740 at 6.
     // Coarse arcs come first, lest fine ones take parts of them (overlap .9867 without, `_5k`; 6 and 24 vertices are as
     // good), and with fewer vertices again (.9862 at 8; 3 are as good). Any three circles round an axis are on a torus: with
@@ -127,7 +132,7 @@ class Surface_growing {
 
   /// Numbers of vertices of the neighbourhoods that surfaces are fitted to first.
   /// The largest clean one costs most: overlap .9730 at 18 in .9 of the time, .9753 at 72 in 1.3 times the time. Without that of
-  /// 9 vertices, which planes alone begin with, CAD solids (`_5k`) under noise of .1 % have .878 in place of .885.
+  /// 9 vertices, which planes alone begin with, .878 in place of .885 under noise as in `passes()`.
   const std::vector<std::size_t>& first_sizes() const {
     static const std::vector<std::size_t> clean = {7, 10, 12, 36}, independent = {9, 18, 54, 162},
                                           noisy = {18, 54, 162};

@@ -134,7 +134,7 @@ class Surface_proposals {
 
   /// What surfaces about a face are fitted to: neighbourhoods, and the faces about it that are explained badly.
   std::vector<Patch> patches_about(Index seed) {
-    // Of these faces. Without them CAD solids (`_5k`) under noise of .1 % have overlap .879 in place of .885.
+    // Of these faces. Without them overlap .879 in place of .885 under noise as in `Surface_growing::passes()`.
     constexpr std::size_t most_vertices = 400;
     std::vector<Patch> patches;
     for (const std::size_t size : start_sizes) {
