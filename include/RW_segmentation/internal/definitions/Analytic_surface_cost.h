@@ -28,16 +28,18 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   constexpr int most_estimates = 8;
   constexpr double least_growth = 1.05;
   const bool is_given = noise >= 0;
-  Surface_tolerance tolerance(mesh, is_given ? noise : 0);
-  if (is_given && !tolerance.is_noisy()) return tolerance;
-  for (int i = 0;; ++i) {
-    Noise_estimate estimate(mesh, tolerance);
-    const bool is_settled = is_given || i == most_estimates;
-    const double deviation = is_settled ? tolerance.noise : estimate.standard_deviation();
-    if (deviation <= least_growth * tolerance.noise)
-      return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, estimate.kind()) : tolerance;
+  const Surface_tolerance first(mesh, is_given ? noise : 0);
+  if (is_given && !first.is_noisy()) return first;
+  Noise_estimate strict(mesh, Surface_tolerance(mesh, 0));
+  Surface_tolerance tolerance = is_given ? first : Surface_tolerance(mesh, strict.standard_deviation());
+  for (int i = 1; !is_given && tolerance.is_noisy() && i < most_estimates; ++i) {
+    const double deviation = Noise_estimate(mesh, tolerance).standard_deviation();
+    if (deviation <= least_growth * tolerance.noise) break;
     tolerance = Surface_tolerance(mesh, deviation);
   }
+  // What reaches across edges has deviations in common: on CAD solids (`_5k`) under noise of .1 %, overlap .894 where the
+  // last estimate tells the kind, .903 where the first does.
+  return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, strict.kind()) : tolerance;
 }
 
 RW_SEGMENTATION_INLINE std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
