@@ -20,8 +20,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,10 +33,12 @@ namespace RW_segmentation::internal {
 /// the beginning of a fillet, and leaves too little of the fillet.
 ///
 /// Where regions explain their faces badly, surfaces are fitted to neighbourhoods, across the borders of regions, and to all
-/// that is explained badly in one piece. Each takes what it explains better from the regions about it by a minimum cut, an
-/// expansion move of Boykov, Veksler and Zabih (2001); all of them are fitted to what they have become, in turns. The surface
-/// stays if the energy falls by more than its numbers are worth by the Bayesian information criterion (Schwarz 1978): PEARL of
-/// Isack and Boykov (2012), but beginning with regions in place of chance.
+/// that is explained badly in one piece. One surface is tried for each two regions that meet, and surfaces of other types for
+/// each region: noise that ended a region early leaves one face of the solid in pieces, and few faces tell the wrong type.
+/// Each surface takes what it explains better from the regions about it by a minimum cut, an expansion move of Boykov, Veksler
+/// and Zabih (2001); all of them are fitted to what they have become, in turns. The surface stays if the energy falls by more
+/// than its numbers are worth by the Bayesian information criterion (Schwarz 1978): PEARL of Isack and Boykov (2012), but
+/// beginning with regions in place of chance.
 ///
 /// The energies are those of independent noise: smooth noise would be explained by surfaces of its own.
 class Surface_proposals {
@@ -51,6 +55,10 @@ class Surface_proposals {
         signs_(signs_of(mesh, regions)),
         faces_(regions.surfaces.size()),
         node_of_face_(mesh.number_of_faces(), no_node) {
+    for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+      const auto [f, g] = mesh.graph().faces_of(e);
+      border_energy_.push_back(energy_.of_border(f, g, e));
+    }
     for (Index f = 0; f < mesh.number_of_faces(); ++f) {
       const std::size_t region = regions.region_of_face[f];
       if (region != none) faces_[region].push_back(f);
@@ -61,7 +69,7 @@ class Surface_proposals {
 
   /// Tries a surface about each face that is explained badly, once.
   /// \returns whether one stayed
-  bool run(const Progress& progress) {
+  bool try_about_faces(const Progress& progress) {
     // From one that stays to the next. Free forms have no end of faces explained badly: with no limit, and with surfaces that
     // explain their own faces badly until they are fitted again, a CAD solid of free forms takes 15 times the time, and
     // the Rand error of made solids under noise of .3 %, two seeds, is .022 in place of .023.
@@ -88,8 +96,29 @@ class Surface_proposals {
     return has_stayed;
   }
 
+  /// Tries one surface for each two regions that meet and other types for each region, and again for those that come of it.
+  /// Without it .944 of the faces of made solids are matched at .9 under noise of .1 %, in place of .951 (four seeds).
+  /// \returns whether one stayed
+  bool try_for_regions(const Progress& progress) {
+    constexpr int most_rounds = 4;
+    bool has_stayed = false;
+    std::set<Pair> pairs = pairs_of_regions();
+    for (int round = 0; round < most_rounds && !pairs.empty(); ++round) {
+      const std::size_t first_fresh = regions_.surfaces.size();
+      for (const Pair& pair : pairs) {
+        progress(1);
+        has_stayed |= is_replaced(pair);
+      }
+      pairs.clear();
+      for (const Pair& pair : pairs_of_regions())
+        if (pair[1] >= first_fresh) pairs.insert(pair);
+    }
+    return has_stayed;
+  }
+
  private:
   using Patch = Face_patches::Patch;
+  using Pair = std::array<std::size_t, 2>;  // of regions that meet, in ascending order, or twice the same one
 
   static constexpr std::size_t none = Analytic_regions::none, no_node = none;
   static constexpr std::array<std::size_t, 3> start_sizes = {18, 54, 162};  // vertices, those of `Surface_growing`
@@ -149,39 +178,73 @@ class Surface_proposals {
     return patches;
   }
 
-  /// The surfaces about a face that explain what they are fitted to better than the regions do, the best first.
-  std::vector<Proposal> proposals_about(Index seed) {
-    constexpr std::size_t most_proposals = 2;
+  /// Appends the surfaces of all types that fit to a patch and gain more than so many nats if borders are left aside.
+  void add_proposals(const Patch& patch, double least_gain, std::vector<Proposal>& proposals) {
     constexpr std::size_t least_surplus = 12;  // vertices, as in `Surface_growing`
     constexpr double largest_residual = 1.5;   // deviations
-    std::vector<Proposal> proposals;
-    for (const Patch& patch : patches_about(seed)) {
-      const Surface_samples samples = patches_.samples_of(patch);
-      const Surface_fit fit(samples, largest_residual * tolerance_.distance);
-      for (const Surface_type type : analytic_types) {
-        if (patch.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + least_surplus) continue;
-        const auto surface = fit.fit(type);
-        if (!surface) continue;
-        const double sign = sign_of(*surface, patch.faces);
-        double gain = -worth(type, patch.faces.size());
-        for (const Index f : patch.faces) gain += own_energy_[f] - energy_(*surface, sign, f);
-        if (gain > 0) proposals.push_back({gain, {*surface, sign}, patch.faces});
-      }
+    const Surface_fit fit(patches_.samples_of(patch), largest_residual * tolerance_.distance);
+    for (const Surface_type type : analytic_types) {
+      if (patch.vertices.size() < static_cast<std::size_t>(degrees_of_freedom(type)) + least_surplus) continue;
+      const auto surface = fit.fit(type);
+      if (!surface) continue;
+      const double sign = sign_of(*surface, patch.faces);
+      double gain = -worth(type, patch.faces.size());
+      for (const Index f : patch.faces) gain += own_energy_[f] - energy_(*surface, sign, f);
+      if (gain > least_gain) proposals.push_back({gain, {*surface, sign}, patch.faces});
     }
-    std::stable_sort(proposals.begin(), proposals.end(),
-                     [](const Proposal& a, const Proposal& b) { return a.gain > b.gain; });
-    if (proposals.size() > most_proposals) proposals.resize(most_proposals);
-    return proposals;
   }
 
-  /// The faces that the first proposal about a face takes that is worth it.
+  /// The faces that the first surface about a face takes that is worth it.
   std::vector<Index> taken_about(Index seed) {
+    constexpr std::size_t most_tried = 2;  // those that gain most
+    std::vector<Proposal> proposals;
+    for (const Patch& patch : patches_about(seed)) add_proposals(patch, 0, proposals);
+    std::stable_sort(proposals.begin(), proposals.end(),
+                     [](const Proposal& a, const Proposal& b) { return a.gain > b.gain; });
     std::vector<Index> taken;
-    for (const Proposal& proposal : proposals_about(seed)) {
-      taken = taken_by(proposal);
-      if (!taken.empty()) break;
-    }
+    for (std::size_t i = 0; i < std::min(most_tried, proposals.size()) && taken.empty(); ++i)
+      taken = taken_by(proposals[i]);
     return taken;
+  }
+
+  /// The regions that there are, alone and with each of those that they meet.
+  std::set<Pair> pairs_of_regions() const {
+    std::set<Pair> pairs;
+    for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
+      const std::size_t region = regions_.region_of_face[f];
+      if (region == none) continue;
+      pairs.insert({region, region});
+      for (const auto& [g, e] : mesh_.graph().neighbours(f))
+        if (const std::size_t other = regions_.region_of_face[g]; region < other && other != none && !mesh_.is_wall(e))
+          pairs.insert({region, other});
+    }
+    return pairs;
+  }
+
+  /// Whether one surface has taken the place of two regions, or one of another type that of one. There is no cut: where the
+  /// border is, `Region_borders` tells.
+  bool is_replaced(const Pair& pair) {
+    const std::size_t a = pair[0], b = pair[1];
+    if (faces_[a].empty() || faces_[b].empty()) return false;  // replaced since
+    std::vector<Index> faces;
+    std::set_union(faces_[a].begin(), faces_[a].end(), faces_[b].begin(), faces_[b].end(), std::back_inserter(faces));
+    std::vector<Proposal> proposals;
+    add_proposals(patches_.of(faces), -std::numeric_limits<double>::infinity(), proposals);
+    const auto is_there = [&](const Proposal& p) {
+      return a == b && p.fitted.surface.type == regions_.surfaces[a].type;
+    };
+    proposals.erase(std::remove_if(proposals.begin(), proposals.end(), is_there), proposals.end());
+    if (proposals.empty()) return false;
+    const auto best = std::max_element(proposals.begin(), proposals.end(),
+                                       [](const Proposal& p, const Proposal& q) { return p.gain < q.gain; });
+    Trial trial = {std::move(faces), best->fitted, {}, {}};
+    for (const std::size_t region : pair) {
+      trial.losers[region] = {regions_.surfaces[region], signs_[region]};
+      trial.left[region] = {};
+    }
+    if (explains_badly(trial) || !(gain_of(trial) > 0)) return false;
+    accept(trial);
+    return true;
   }
 
   /// What a proposal takes from each region, and the surfaces that the regions have then.
@@ -259,7 +322,7 @@ class Surface_proposals {
       for (const auto& [g, e] : mesh_.graph().neighbours(f)) {
         const bool is_inside = node_of_face_[g] != no_node, was_border = is_border(f, g);
         if (is_inside && g < f) continue;
-        if (is_inside == was_border) gain += (was_border ? 1 : -1) * energy_.of_border(f, g, e);
+        if (is_inside == was_border) gain += (was_border ? 1 : -1) * border_energy_[e];
       }
     for (const Index f : trial.taken) node_of_face_[f] = no_node;
     for (const auto& [region, left] : trial.left) {
@@ -318,7 +381,7 @@ class Surface_proposals {
     Minimum_cut cut(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (const auto& [g, e] : mesh_.graph().neighbours(faces[i])) {
-        const double cost = energy_.of_border(faces[i], g, e);
+        const double cost = border_energy_[e];
         const bool was_border = is_border(faces[i], g);
         if (node_of_face_[g] == no_node) {
           moves[i] += cost;
@@ -361,6 +424,7 @@ class Surface_proposals {
   Face_patches patches_;
   std::vector<double> signs_;              // of each region
   std::vector<std::vector<Index>> faces_;  // of each region, in ascending order
+  std::vector<double> border_energy_;      // of each edge, should it be one
   std::vector<double> own_energy_;         // of each face where it is
   std::vector<double> narrow_badness_;     // of each face: the mean energy of it and its neighbours, before a run
   std::vector<std::size_t> node_of_face_;  // the number of each face in the present cut

@@ -26,8 +26,10 @@ inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_to
   Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
   if (!tolerance.may_have_independent_noise()) return regions;
-  for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).run(progress); ++i)
-    Region_borders(mesh, tolerance, regions).settle(progress);
+  const auto settle = [&] { Region_borders(mesh, tolerance, regions).settle(progress); };
+  for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).try_about_faces(progress); ++i)
+    settle();
+  if (Surface_proposals(mesh, tolerance, regions).try_for_regions(progress)) settle();
   return regions;
 }
 
