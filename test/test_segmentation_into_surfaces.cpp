@@ -322,6 +322,13 @@ TEST(SegmentationIntoSurfaces, FindsFacesOfFewVerticesUnderNoise) {
   }
 }
 
+TEST(SegmentationIntoSurfaces, JoinsThePiecesOfAFaceUnderNoise) {
+  for (const unsigned seed : {1u, 3u, 4u}) {
+    const solids::Solid solid = solids::with_noise(solids::stepped_shaft(solids::even(0.1)), 0.1, seed);
+    EXPECT_LE(number_of(segments_of(solid)), number_of(solid.label) + 1) << seed;
+  }
+}
+
 TEST(SegmentationIntoSurfaces, FindsMostFacesOfScans) {
   std::vector<solids::Solid> scans;
   for (const solids::Solid& clean : solids::all(solids::even(0.1))) scans.push_back(solids::scanned(clean, 0.1));
@@ -340,7 +347,7 @@ TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
   using internal::Noise_kind;
   for (const solids::Solid& clean : solids::all(solids::even(0.1)))
     for (const double percent : {0.1, 0.3}) {
-      EXPECT_TRUE(tolerance_of(solids::with_noise(clean, percent)).may_have_independent_noise()) << clean.name;
+      EXPECT_TRUE(tolerance_of(solids::with_noise(clean, percent)).has_independent_noise()) << clean.name;
       const internal::Surface_tolerance of_scan = tolerance_of(solids::scanned(clean, percent));
       EXPECT_FALSE(of_scan.may_have_independent_noise()) << clean.name;
       // The rings of a flange are hardly wider than the neighbourhoods that tell: it is smooth or unclear by chance.
@@ -348,6 +355,15 @@ TEST(SegmentationIntoSurfaces, TellsNoiseOfScannersFromIndependentNoise) {
         EXPECT_EQ(of_scan.noise_kind, Noise_kind::smooth) << clean.name;
       }
     }
+}
+
+TEST(SegmentationIntoSurfaces, TellsTheNoiseOfASolidWithFewVertices) {
+  constexpr double percent = 0.3;
+  constexpr unsigned seeds = 5;
+  double sum = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed)
+    sum += tolerance_of(solids::with_noise(solids::cone_on_cylinder(solids::by_kernel()), percent, seed)).noise;
+  EXPECT_NEAR(100 * sum / seeds, percent, percent);
 }
 
 TEST(SegmentationIntoSurfaces, TellsNoiseThatIsSmoothedOnceFromIndependentNoise) {
