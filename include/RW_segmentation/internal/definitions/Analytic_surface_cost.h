@@ -28,10 +28,10 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   constexpr int most_estimates = 8;
   constexpr double least_growth = 1.05;
   const bool is_given = noise >= 0;
-  const Surface_tolerance first(mesh, is_given ? noise : 0);
-  if (is_given && !first.is_noisy()) return first;
+  Surface_tolerance tolerance(mesh, is_given ? noise : 0);
+  if (is_given && !tolerance.is_noisy()) return tolerance;
   Noise_estimate strict(mesh, Surface_tolerance(mesh, 0));
-  Surface_tolerance tolerance = is_given ? first : Surface_tolerance(mesh, strict.standard_deviation());
+  if (!is_given) tolerance = Surface_tolerance(mesh, strict.standard_deviation());
   for (int i = 1; !is_given && tolerance.is_noisy() && i < most_estimates; ++i) {
     const double deviation = Noise_estimate(mesh, tolerance).standard_deviation();
     if (deviation <= least_growth * tolerance.noise) break;
