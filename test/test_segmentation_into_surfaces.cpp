@@ -363,7 +363,9 @@ TEST(SegmentationIntoSurfaces, TellsTheNoiseOfASolidWithFewVertices) {
   double sum = 0;
   for (unsigned seed = 1; seed <= seeds; ++seed)
     sum += tolerance_of(solids::with_noise(solids::cone_on_cylinder(solids::by_kernel()), percent, seed)).noise;
-  EXPECT_NEAR(100 * sum / seeds, percent, percent);
+  const double mean = 100 * sum / seeds;
+  EXPECT_GE(mean, percent / 2);
+  EXPECT_LE(mean, 2 * percent);
 }
 
 TEST(SegmentationIntoSurfaces, TellsNoiseThatIsSmoothedOnceFromIndependentNoise) {

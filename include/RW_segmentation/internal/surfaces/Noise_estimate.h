@@ -41,13 +41,11 @@ class Noise_estimate {
   /// The standard deviation of the vertices in parts of the diagonal, 0 if it is below `Surface_tolerance::cad_exactness`.
   double standard_deviation() {
     constexpr double correction = 1.25, correction_of_half = 1.85;  // from a low quantile of the best of five fits
-    // Independent noise on CAD and made solids: 1.2 to 1.8, but 2.3 and more where nearly no face has as many vertices.
+    // Independent noise on CAD and made solids: 1.2 to 1.9, but 2.3 and more where nearly no face has as many vertices.
     constexpr double largest_growth = 2.1;
     if (!expects_noise_ && is_exact()) return 0;
     const Noise_kind its_kind = kind();
-    const bool may_be_independent =
-        its_kind == Noise_kind::independent || its_kind == Noise_kind::seemingly_independent;
-    if (may_be_independent && growth_to(many_vertices) > largest_growth)
+    if (may_be_independent(its_kind) && growth_to(many_vertices) > largest_growth)
       return correction_of_half * deviation_of(many_vertices / 2);
     const std::size_t vertices = its_kind == Noise_kind::smooth ? *size_beyond_smooth_noise() : many_vertices;
     return std::max(correction * deviation_of(vertices), deviation_that_grows_no_more());

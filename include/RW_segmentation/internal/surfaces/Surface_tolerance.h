@@ -26,6 +26,10 @@ enum class Noise_kind {
   unclear,                ///< a free form may be all there is
 };
 
+constexpr bool may_be_independent(Noise_kind kind) {
+  return kind == Noise_kind::independent || kind == Noise_kind::seemingly_independent;
+}
+
 /// How far a mesh may be from the surfaces it approximates. Lengths are parts of the diagonal of its bounding box.
 ///
 /// What comments tell of other values of a number was measured as in `Surface_growing`.
@@ -72,9 +76,7 @@ struct Surface_tolerance {
 
   bool is_noisy() const { return noise > 0; }
   bool has_independent_noise() const { return is_noisy() && noise_kind == Noise_kind::independent; }
-  bool may_have_independent_noise() const {
-    return has_independent_noise() || (is_noisy() && noise_kind == Noise_kind::seemingly_independent);
-  }
+  bool may_have_independent_noise() const { return is_noisy() && may_be_independent(noise_kind); }
 
   /// What a vertex is allowed: three deviations, or less under noise, which would hide smooth joints otherwise.
   double largest_distance() const {
