@@ -83,10 +83,10 @@ class Metric {
     for (std::size_t f = 0; f < shape.faces.size(); ++f)
       for (std::size_t k = 0; k < shape.faces[f].size(); ++k)
         face_of_side[{shape.faces[f][k], shape.faces[f][(k + 1) % shape.faces[f].size()]}] = f;
-    neighbours.resize(shape.faces.size());
+    steps.resize(shape.faces.size());
     for (const auto& [side, f] : face_of_side) {
       const auto other = face_of_side.find({side.second, side.first});
-      if (other != face_of_side.end()) neighbours[f].push_back(other->second);
+      if (other != face_of_side.end()) steps[f].emplace_back(other->second, straight(f, other->second));
     }
   }
 
@@ -101,9 +101,9 @@ class Metric {
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t f = 0; f < length.size(); ++f)
-        for (const std::size_t g : neighbours[f])
-          if (length[f] + straight(f, g) < length[g]) {
-            length[g] = length[f] + straight(f, g);
+        for (const auto& [g, step] : steps[f])
+          if (length[f] + step < length[g]) {
+            length[g] = length[f] + step;
             changed = true;
           }
     }
@@ -143,7 +143,7 @@ class Metric {
   std::vector<Eigen::Vector3d> centroid, normal;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // the area's centroid in the end
   double w = 0;
-  std::vector<std::vector<std::size_t>> neighbours;
+  std::vector<std::vector<std::pair<std::size_t, double>>> steps;  // to each neighbour, and how far it is
 };
 
 std::vector<std::size_t> first(const std::vector<std::size_t>& seeds, std::size_t number) {
@@ -308,7 +308,7 @@ TEST(Distance_clusters, HaveAWayForAnyTwoThatTouchWhichIsThatOfShortestPathsIfFa
     const internal::Distance_clusters clusters(dual.graph(), lengths, steps);
     std::set<std::array<Dual_graph::Index, 2>> touching;
     for (std::size_t f = 0; f < number.size(); ++f)
-      for (const std::size_t g : metric.neighbours[f]) {
+      for (const auto& [g, step] : metric.steps[f]) {
         const auto a = clusters.of_face[number[f]], b = clusters.of_face[number[g]];
         if (a < b) touching.insert({a, b});
       }

@@ -509,7 +509,7 @@ TEST(SegmentationIntoSurfaces, HasNoSegmentOnBothSidesOfAClosedLoopOfConstrained
   };
   constexpr double percent = 0.2;
   unsigned random_seed = 0;
-  for (const solids::Meshing& meshing : {solids::even(0.3), solids::by_kernel()})
+  for (const solids::Meshing& meshing : {solids::even(0.4), solids::by_kernel()})
     for (const solids::Solid& solid : solids::all(meshing)) {
       cut(solid, ++random_seed, {});
       cut(solids::with_noise(solid, percent), ++random_seed, with_noise_of(percent));
