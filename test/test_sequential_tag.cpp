@@ -177,6 +177,8 @@ TEST(SequentialTag, KeepsStepsOfTilesToTheCallingThread) {
   observed("fragments_of_tile",
            fragments_of_tile<One>({place, shaped.shape, clusters, {}, {}, seeds, walk}, regions, progress));
   observed("hierarchy_of_tiles", hierarchy_of_tiles<One>(tiles, options, progress));
+  const std::vector<Seed_point> given = {{tiles[0].points.front(), 0}, {tiles[0].points.back(), 1}};
+  observed("segments_of_tiles", segments_of_tiles<One>(tiles, given, options, progress));
 }
 
 }  // namespace test_sequential_tag

@@ -4,10 +4,19 @@
 
 #include <RW_segmentation/tiled_segmentation.h>
 
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/Tile.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smoothed_face_normals.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
 #include "../benchmark/segmentation_measures.h"
@@ -119,7 +128,7 @@ Labels segments_of_whole(const Shape& shape, std::size_t segments) {
   return {ids.begin(), ids.end()};
 }
 
-Labels segments_of_tiles(const Cut_mesh& mesh, std::size_t segments) {
+Labels tiled_segments(const Cut_mesh& mesh, std::size_t segments) {
   return mesh.of_whole(hierarchy_of_tiles(mesh.tiles, Tiled_segmentation(segments)).segments(segments));
 }
 
@@ -136,7 +145,7 @@ TEST(TiledSegmentation, CutsWhereTheWholeIsCutHoweverItIsTiled) {
   constexpr std::size_t segments = 3;  // of two, the neck might go with either ball
   const Labels whole = segments_of_whole(shape, segments);
   for (const Cut_mesh& mesh : {slices(shape, 1), slices(shape, 2), slices(shape, 5), octants(shape)}) {
-    const Labels tiled = segments_of_tiles(mesh, segments);
+    const Labels tiled = tiled_segments(mesh, segments);
     EXPECT_EQ(std::set<std::size_t>(tiled.begin(), tiled.end()).size(), segments);
     EXPECT_LE(rand_error(whole, tiled), 0.02);
   }
@@ -145,7 +154,7 @@ TEST(TiledSegmentation, CutsWhereTheWholeIsCutHoweverItIsTiled) {
 TEST(TiledSegmentation, KeepsTheBallsOfADumbbellApart) {
   constexpr double end_of_neck = 0.5;  // of which either ball may have any part
   const Shape shape = dumbbell();
-  const Labels labels = segments_of_tiles(octants(shape), 2);
+  const Labels labels = tiled_segments(octants(shape), 2);
   std::set<std::size_t> lower, upper;
   for (std::size_t f = 0; f < labels.size(); ++f) {
     const double z = shape.points[shape.faces[f][0]][2];
@@ -247,6 +256,103 @@ TEST(TiledSegmentation, TellsItsProgressAndMayBeCancelled) {
   EXPECT_EQ(told.back(), 1);
   for (const double end : {0.1, 0.5, 0.8})
     EXPECT_THROW(hierarchy_of_tiles(tiles, {}, Progress([&](double fraction) { return fraction < end; })), Cancelled);
+}
+
+// ---- Seeds of the user ----
+
+using Places = std::vector<std::vector<Tile_place>>;
+
+/// Two seeds on one ball and one on the other, near the surface, and one on the neck between them.
+std::vector<Seed_point> seeds_on_dumbbell() {
+  return {{{1.1, 0.2, -1.3}, 4}, {{0, 0.4, 0}, 0}, {{-0.3, -0.9, 1.4}, 7}, {{-0.6, 0.5, -2}, 4}};
+}
+
+/// By the walk over the faces of the whole.
+Labels segments_of_whole(const Shape& shape, const std::vector<Seed_point>& seeds) {
+  const auto mesh = meshes::surface_mesh(shape);
+  const Dual_mesh_of smoothed = smoothed_shape(Dual_mesh_of(mesh));
+  Random_walk walk(mesh, Conductance(smoothed, Dihedral_difference(smoothed, seeded_concavity())));
+  for (const auto& [point, label] : seeds) {
+    std::vector<double> distance;
+    for (const auto& face : shape.faces) {
+      const auto corner = [&, &p = point](std::size_t k) -> Eigen::Vector3d { return shape.points[face[k]] - p; };
+      distance.push_back((corner(0) + corner(1) + corner(2)).norm());
+    }
+    const auto closest = std::min_element(distance.begin(), distance.end()) - distance.begin();
+    walk.add_seed(meshes::Surface_mesh::Face_index(static_cast<unsigned>(closest)), label);
+  }
+  Labels labels(shape.faces.size());
+  walk.segment(boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh)));
+  return labels;
+}
+
+Labels tiled_segments(const Cut_mesh& mesh, const std::vector<Seed_point>& seeds) {
+  std::vector<Labels> labels;
+  for (const auto& of_tile : segments_of_tiles(mesh.tiles, seeds)) labels.emplace_back(of_tile.begin(), of_tile.end());
+  return mesh.of_whole(labels);
+}
+
+TEST(TiledSegmentation, FromSeedsCutsWhereTheWholeIsCutHoweverItIsTiled) {
+  const Shape shape = dumbbell();
+  const std::vector<Seed_point> seeds = seeds_on_dumbbell();
+  const Labels whole = segments_of_whole(shape, seeds);
+  for (const Cut_mesh& mesh : {slices(shape, 1), slices(shape, 2), slices(shape, 5), octants(shape)}) {
+    const Labels tiled = tiled_segments(mesh, seeds);
+    EXPECT_EQ(std::set<std::size_t>(tiled.begin(), tiled.end()), (std::set<std::size_t>{0, 4, 7}));
+    std::size_t different = 0;
+    for (std::size_t f = 0; f < whole.size(); ++f) different += tiled[f] != whole[f];
+    EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(whole.size()));
+  }
+}
+
+TEST(TiledSegmentation, TakesTheFacesThatAreClosestToSeedsInAllTiles) {
+  const Shape shape = dumbbell();
+  const Cut_mesh mesh = octants(shape);
+  const std::vector<Seed_point> seeds = seeds_on_dumbbell();
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+  std::vector<Tile_outline> outlines;
+  Places places;
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t) {
+    const Shaped_tile shaped = shape_of_tile(mesh.tiles[t], {t, plan}, {}, {});
+    outlines.push_back(shaped.outline);
+    places.push_back(places_in_tile(shaped.shape, plan, seeds));
+  }
+  const auto found = seeds_of_tiles(plan, outlines, seeds, places).seeds;
+  ASSERT_EQ(found.size(), seeds.size());
+  const auto squared_distance = [&](std::size_t s, std::size_t f) {
+    using Kernel = CGAL::Simple_cartesian<double>;
+    const auto point = [](const Eigen::Vector3d& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
+    const auto& face = shape.faces[f];
+    return CGAL::squared_distance(point(seeds[s].point),
+                                  Kernel::Triangle_3(point(shape.points[face[0]]), point(shape.points[face[1]]),
+                                                     point(shape.points[face[2]])));
+  };
+  for (std::size_t s = 0; s < seeds.size(); ++s) {
+    double least = std::numeric_limits<double>::infinity(), of_found = least;
+    for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+      least = std::min(least, squared_distance(s, f));
+      if (mesh.place[f] == std::pair<std::size_t, std::size_t>(found[s].tile, found[s].face))
+        of_found = squared_distance(s, f);
+    }
+    EXPECT_NEAR(of_found, least, 1e-12);
+    EXPECT_EQ(found[s].label, seeds[s].label);
+  }
+}
+
+TEST(TiledSegmentation, FromSeedsGivesPartsOutOfReachLabelsOfTheirOwn) {
+  const Shape balls = meshes::together(meshes::sphere(3), meshes::moved(meshes::sphere(3), {2.5, 0.3, 0}));
+  const Labels labels = tiled_segments(octants(balls), {{{0, 0, 1}, 3}});
+  for (std::size_t f = 0; f < labels.size(); ++f) EXPECT_EQ(labels[f], f < labels.size() / 2 ? 3U : 4U);
+}
+
+TEST(TiledSegmentation, RefusesSeedsThatContradictEachOtherOrLieNowhere) {
+  const std::vector<Tile> tiles = slices(dumbbell(), 2).tiles;
+  const Eigen::Vector3d point(0, 0, 2);
+  EXPECT_NO_THROW(segments_of_tiles(tiles, {{point, 0}, {point, 0}}));
+  EXPECT_THROW(segments_of_tiles(tiles, {{point, 0}, {point, 1}}), std::invalid_argument);
+  EXPECT_THROW(segments_of_tiles(tiles, {}), std::invalid_argument);
+  EXPECT_THROW(segments_of_tiles({}, {{point, 0}}), std::invalid_argument);
+  EXPECT_THROW(segments_of_tiles({Tile()}, {{point, 0}}), std::invalid_argument);
 }
 
 // ---- Measures of the whole ----

@@ -30,10 +30,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<const char*> step_names = {"survey",   "plan", "border",    "noise", "shape",  "seeds",
+const std::vector<const char*> step_names = {"survey",   "plan", "border",    "noise", "shape",  "places", "seeds",
                                              "clusters", "walk", "fragments", "merge", "labels", "report"};
 bool is_of_each_tile(const std::string& step) {
-  return std::set<std::string>{"survey", "border", "shape", "clusters", "fragments", "labels"}.count(step) > 0;
+  return std::set<std::string>{"survey", "border", "shape", "places", "clusters", "fragments", "labels"}.count(step) >
+         0;
 }
 
 /// Four tiles of a dumbbell: quarters round its axis.
@@ -188,6 +189,63 @@ TEST_F(Tiles, OtherNumbersOfSegmentsTakeTheLastStepsAlone) {
   EXPECT_EQ(take_labels(), two);
 }
 
+TEST_F(Tiles, FromSeedsHaveTheirLabels) {
+  const std::vector<std::string> seeds = {"--seed", "0,0,-2.5=9", "--seed", "0,0.4,0=4", "--seed", "0.5,0,2=70"};
+  std::vector<std::string> arguments = command({"--report", "report.json", "--tile-folder", "work"});
+  arguments.insert(arguments.end(), seeds.begin(), seeds.end());
+  const Result result = run(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto all = take_labels();
+  std::map<std::size_t, std::size_t> faces;
+  for (const auto& of_tile : all)
+    for (const std::size_t label : of_tile) ++faces[label];
+  const Json report = Json::parse(content_of(path("report.json")));
+  ASSERT_EQ(report["segments"].size(), 3U);
+  EXPECT_EQ(report["unseeded_components"], 0);
+  for (const Json& segment : report["segments"])
+    EXPECT_EQ(segment["faces"], faces[segment["label"].get<std::size_t>()]);
+  EXPECT_EQ(faces.size(), 3U);
+  // The upper ball lies in tiles 2 and 3.
+  for (const std::size_t t : {2U, 3U}) EXPECT_EQ(std::set<std::size_t>(all[t].begin(), all[t].end()).size(), 1U);
+  EXPECT_EQ(all[2].front(), 70U);
+
+  // Other seeds take the steps from them on alone, step by step as well.
+  const auto shape_of = [&] { return fs::last_write_time(path("work/shape_0")); };
+  const auto before = shape_of();
+  write("seeds.txt", "0 0 -2.5 = 9  # below\n0.5 0 2 = 70\n");
+  ASSERT_EQ(run(command({"--seeds-file", "seeds.txt", "--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(shape_of(), before);
+  std::set<std::size_t> two;
+  const auto of_two_seeds = take_labels();
+  for (const auto& of_tile : of_two_seeds) two.insert(of_tile.begin(), of_tile.end());
+  EXPECT_EQ(two, (std::set<std::size_t>{9, 70}));
+  expect_failure(3, "holds the work from other seeds", command({"--tile-folder", "work", "--tile-step", "plan"}));
+  for (const std::string step : step_names)
+    for (std::size_t t = 0; t < (is_of_each_tile(step) ? 4 : 1); ++t) {
+      std::vector<std::string> more = {"--seeds-file", "seeds.txt", "--tile-folder", "steps", "--tile-step", step};
+      if (is_of_each_tile(step)) more.insert(more.end(), {"--tile", std::to_string(t)});
+      ASSERT_EQ(run(command(more)).exit_code, 0) << step;
+    }
+  EXPECT_EQ(take_labels(), of_two_seeds);
+
+  // Without seeds they place themselves again.
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);
+  const auto automatic = take_labels();
+  ASSERT_EQ(run(command({"--segments", "2"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), automatic);
+}
+
+TEST_F(Tiles, TellOfPartsThatNoSeedCanReach) {
+  write_tiles(meshes::together(meshes::sphere(3), meshes::moved(meshes::sphere(3), {3, 0, 0})));
+  const Result result = run(command({"--seed", "-1,0,0=5", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("1 component without a seed, each a segment of its own"), std::string::npos);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["unseeded_components"], 1);
+  EXPECT_EQ(report["segments"][0]["label"], 5);
+  EXPECT_EQ(report["segments"][1]["label"], 6);
+}
+
 TEST_F(Tiles, RefuseTheWorkOfOthers) {
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   expect_failure(3, "holds the work on other tiles or with other options",
@@ -210,6 +268,9 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
 TEST_F(Tiles, RefuseWhatTheyCannotHave) {
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--engineering"},
                                                   {"--seed", "3"},
+                                                  {"--seed", "1,2,3", "--segments", "2"},
+                                                  {"--seed", "1,2,3", "--probabilities", "%.txt"},
+                                                  {"--seeds-file", "%.txt"},
                                                   {"--refine"},
                                                   {"--html", "a.html"},
                                                   {"--paper"},
@@ -229,6 +290,7 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
   EXPECT_EQ(run(command({"--tile-step", "shape", "--tile", "4", "--tile-folder", "w"})).exit_code, 3);
   EXPECT_EQ(run(command({"--tolerance", "-1"})).exit_code, 3);
   EXPECT_EQ(run(command({"--segments", "1000000"})).exit_code, 3);
+  EXPECT_EQ(run(command({"--seed", "0,0,2=1", "--seed", "0,0,2=2"})).exit_code, 3);
   EXPECT_EQ(run({name(0), name(1), "--labels", "%.seg", "--workers", "2"}).exit_code, 1);
   EXPECT_EQ(run({"-", name(1), "--tiled", "--labels", "%.seg"}).exit_code, 1);
   for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(fs::exists(path("tile_" + std::to_string(t) + ".seg")));

@@ -220,8 +220,10 @@ TEST(TransferSegments, ClosestFacesAreThoseOfASearchThroughAll) {
       if (t.first_side.cross(t.second_side).dot(direction) > 0) least = std::min(least, distance_to(t));
     const auto found = tree.closest_face(p, direction);
     ASSERT_TRUE(found);
-    EXPECT_DOUBLE_EQ(distance_to(triangles[*found]), least);
-    EXPECT_GT(triangles[*found].first_side.cross(triangles[*found].second_side).dot(direction), 0);
+    const internal::Fan_triangle& closest = triangles[found->face];
+    EXPECT_DOUBLE_EQ(distance_to(closest), least);
+    EXPECT_EQ(found->squared_distance, least);
+    EXPECT_GT(closest.first_side.cross(closest.second_side).dot(direction), 0);
   }
 }
 

@@ -24,6 +24,7 @@ STEPS = (
     ("border", True, "noise"),
     ("noise", False, "noise_of_all"),
     ("shape", True, "outline"),
+    ("places", True, "places"),
     ("seeds", False, "seeds"),
     ("clusters", True, "network"),
     ("walk", False, "walk"),

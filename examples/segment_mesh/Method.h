@@ -208,13 +208,9 @@ struct Choices {
 inline RW_segmentation::Dihedral_difference_policy angles_of(const Choices& choices, Difference difference,
                                                              bool are_seeds_segments) {
   RW_segmentation::Dihedral_difference_policy angles = angles_of(difference);
-  if (difference == Difference::concavity && (are_seeds_segments || choices.is_coarse)) {
-    // Fragments are merged over slight concavities; walks from seeds that are segments themselves heed all.
-    angles.ordinary_difference = 0;
-    // Seeds may also lie on the two sides of a convex crease, which a weight of 0 does not see. With one seed in the
-    // middle of each part that people make of natural shapes, weights of 0, 0.02, 0.05, 0.1 and 0.2 give 87.7, 87.8,
-    // 87.3, 85.6 and 81.8 % of the faces their part.
-    if (are_seeds_segments) angles.convex_weight = 0.02;
+  if (difference == Difference::concavity) {
+    if (are_seeds_segments) angles = RW_segmentation::seeded_concavity();
+    if (choices.is_coarse) angles.ordinary_difference = 0;  // nothing is merged over slight concavities
   }
   angles.convex_weight = choices.convex_weight.value_or(angles.convex_weight);
   angles.measure = choices.measure.value_or(angles.measure);

@@ -127,7 +127,10 @@ inline void check_tiles(const Options& options) {
   }
   constexpr const char* reason = "tiles are segmented without it: leave it or --tiled out";
   const Files& files = options.files;
-  refuse(options.has_seeds(), "--seed", reason);
+  refuse(options.has_seeds() && options.merges(), "--seed",
+         "of tiles each label is a segment: leave --segments and --seeds out");
+  refuse(has_placeholder(files.seeds), "--seeds-file", "seeds are those of all tiles: leave the % out");
+  refuse(!files.probabilities.empty(), "--probabilities", reason);
   refuse(options.is_engineering, "--engineering", reason);
   refuse(options.is_coarse, "--coarse", reason);
   refuse(options.is_paper, "--paper", reason);

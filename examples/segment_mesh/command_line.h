@@ -111,12 +111,12 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option(
          "--tile-folder", options.tile_folder,
          "Where steps leave what later ones need, some 150 bytes a face. It stays: run again, only what is not\n"
-         "there is done, and another --segments takes the last steps alone. (A temporary folder)")
+         "there is done; other seeds, or another --segments, take the last steps alone. (A temporary folder)")
       ->option_text("FOLDER")
       ->group("Tiles of one mesh");
   app.add_option("--tile-step", options.tile_step,
-                 "Do one step only, for schedulers of many machines: survey, border, shape, clusters, fragments and\n"
-                 "labels of one tile, plan, noise, seeds, walk, merge and report of all")
+                 "Do one step only, for schedulers of many machines: survey, border, shape, places, clusters,\n"
+                 "fragments and labels of one tile, plan, noise, seeds, walk, merge and report of all")
       ->option_text("STEP")
       ->group("Tiles of one mesh");
   add_number(app, "--tile", options.tile, places, "The tile of that step, numbered from 0 in the order of the meshes")

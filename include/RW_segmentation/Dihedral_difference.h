@@ -45,8 +45,8 @@ struct Dihedral_difference_policy {
 
 namespace internal {
 
-/// How far the normals of the shape turn inward at each edge, in radians; 0 at convex edges.
-std::vector<double> inward_turns(const Dual_mesh& mesh);
+/// How far the normals of the shape turn at each edge, in radians; times a weight at convex edges.
+std::vector<double> turns(const Dual_mesh& mesh, double convex_weight);
 
 /// The mean turn below which a mesh is flat, since its angles are the rounding of coordinates, in radians.
 double flat_turn(double rounding, double mean_edge_length);
@@ -56,6 +56,12 @@ double flat_turn(double rounding, double mean_edge_length);
 /// The difference that agrees best with people on natural shapes, where normals are smoothed: the concavity in excess of
 /// an ordinary one.
 inline Dihedral_difference_policy smoothed_concavity() { return {0, Dihedral_measure::angle, 1}; }
+
+/// The difference, by smoothed normals, for walks from seeds that are segments themselves. They heed slight concavities as
+/// well, over which fragments are merged otherwise, and convex creases a little, on whose two sides seeds may lie, too. With
+/// one seed in the middle of each part that people make of natural shapes, convex weights of 0, 0.02, 0.05, 0.1 and 0.2 give
+/// 87.7, 87.8, 87.3, 85.6 and 81.8 % of the faces their part.
+inline Dihedral_difference_policy seeded_concavity() { return {0.02, Dihedral_measure::angle, 0}; }
 
 /// The difference of two faces by the angle between their normals (Eq. 4 and 5):
 /// d1 = eta (1 - cos theta), divided by its mean over all interior edges, so that 1 is an average edge.

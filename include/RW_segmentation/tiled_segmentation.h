@@ -26,19 +26,20 @@
 #include <vector>
 
 /// \file
-/// The automatic segmentation of a mesh that comes in tiles, by steps that each see one tile, and steps between them that
-/// see no mesh at all:
+/// The segmentation of a mesh that comes in tiles, automatic or from seeds of the user, by steps that each see one tile, and
+/// steps between them that see no mesh at all:
 ///
 ///     each tile   `survey_tile()`       how large it is, and its border
 ///     all         `plan_tiles()`        which borders are the same
 ///     each tile   `border_of_tile()`    what its neighbours must know of it, and its noise
 ///     all         `noise_of_tiles()`    how noisy the whole is
 ///     each tile   `shape_of_tile()`     with its neighbours' borders: normals; a coarse graph
+///     each tile   `places_in_tile()`    where seeds of the user are, if there are any
 ///     all         `seeds_of_tiles()`    seeds, what is ordinary on the whole
 ///     each tile   `clusters_of_tile()`  a network of clusters of faces for the walk
 ///     all         `walk_over_tiles()`   the fragment of each cluster
 ///     each tile   `fragments_of_tile()` the fragment of each face; sums over regions and boundaries
-///     all         `merge_tiles()`       the merge tree
+///     all         `merge_tiles()`       the merge tree; seeds of the user need none
 ///
 /// A step takes what earlier ones returned, in the order of the tiles, and depends on nothing else: not on where or in which
 /// order the tiles are done. Whatever lies between two steps is plain data. Steps that may use threads take CGAL's tag of
@@ -46,7 +47,8 @@
 ///
 /// It is the segmentation that `segmentation_via_random_walks()` makes of large meshes, on the mesh as a whole: the same
 /// seeds but for their place within a cluster, the same walk, the same merging. What differs: normals near a tile's border
-/// see the surface only as far as its neighbours' borders reach.
+/// see the surface only as far as its neighbours' borders reach. From seeds of the user it is that of `Random_walk`, but for
+/// the clusters that walks run over, with normals of the smoothed shape and `seeded_concavity()`.
 
 namespace RW_segmentation {
 
@@ -137,8 +139,10 @@ struct Side_value {
 /// Sums over the edges of a tile, from which means over the whole are made. Edges between two tiles count for the lower
 /// one.
 struct Turn_sums {
-  double edges = 0, length = 0, turn = 0;
-  std::vector<std::uint64_t> counts;  ///< of the turns, see `Turn_histogram`
+  double edges = 0, length = 0;
+  double turn = 0;                    ///< inward
+  double seeded_turn = 0;             ///< weighted as in `seeded_concavity()`
+  std::vector<std::uint64_t> counts;  ///< of the inward turns, see `Turn_histogram`
 };
 
 }  // namespace internal
@@ -182,12 +186,25 @@ struct Shaped_tile {
   Tile_outline outline;  ///< for the step of all tiles
 };
 
+/// A seed of the user: the face that is closest to a point, in whichever tile.
+struct Seed_point {
+  Eigen::Vector3d point;   ///< in the coordinates of the tiles
+  Dual_mesh::Index label;  ///< of the segment, which several seeds may have
+};
+
+/// What `places_in_tile()` finds for a point.
+struct Tile_place {
+  Dual_mesh::Index face;    ///< of the tile, the closest one
+  double squared_distance;  ///< in the unit box; infinity if the tile has no face with an area
+};
+
 /// Seeds, and what is ordinary on the whole.
 struct Tile_seeds {
   /// A seed.
   struct Seed {
-    Dual_mesh::Index tile;  ///< where it is
-    Dual_mesh::Index face;  ///< of the tile
+    Dual_mesh::Index tile;   ///< where it is
+    Dual_mesh::Index face;   ///< of the tile
+    Dual_mesh::Index label;  ///< of a seed of the user; of others their number
   };
   /// Where the thickness is measured.
   struct Probe {
@@ -199,6 +216,8 @@ struct Tile_seeds {
   std::vector<Probe> probes;          ///< tile by tile
   internal::Mean_concavity ordinary;  ///< means over the edges of all tiles
   std::size_t turned_sides = 0;       ///< sides at which two tiles are not oriented alike; no tile goes on there
+  bool are_given = false;             ///< whether they are the user's: each label is a segment
+  double seeded_turn = 0;  ///< mean over the edges of all tiles, weighted as in `seeded_concavity()`; 0: it is flat
 };
 
 /// What `clusters_of_tile()` keeps for the tile itself: the cluster of each face.
@@ -216,7 +235,8 @@ struct Tile_network {
 
 /// The fragments of the clusters of all tiles.
 struct Tile_walk {
-  std::vector<std::vector<Dual_mesh::Index>> fragments;  ///< by tile and cluster
+  /// By tile and cluster; for seeds of the user their labels, and those after the largest one where none is in reach.
+  std::vector<std::vector<Dual_mesh::Index>> fragments;
   std::vector<std::vector<char>> bands;  ///< by tile and cluster: whether its faces are walked on once more
   std::vector<double> thickness;         ///< by probe, in the unit box; 0 where it could not be measured
   std::size_t number_of_fragments = 0;   ///< of the whole
@@ -293,6 +313,18 @@ Shaped_tile shape_of_tile(const Tile& tile, const Tile_in_plan& place, const std
 /// Complexity: that of `Farthest_point_sampling` on the coarse graph.
 Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>& outlines,
                           const Tiled_segmentation& options = {}, const Progress& progress = {});
+
+/// Finds the face of a tile that is closest to each point, the one of the lowest number where several are.
+/// Complexity: O(n log n) for n faces, and O(log n) for most points.
+std::vector<Tile_place> places_in_tile(const Tile_shape& shape, const Tile_plan& plan,
+                                       const std::vector<Seed_point>& seeds);
+
+/// Takes the user's seeds, each in the tile that is closest to it, the first one where several are.
+/// \param places what `places_in_tile()` found, by tile
+/// 	hrows std::invalid_argument if there is no seed or no face, or a face gets two labels
+/// Complexity: linear.
+Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>& outlines,
+                          const std::vector<Seed_point>& seeds, const std::vector<std::vector<Tile_place>>& places);
 
 /// Makes the clusters of a tile that walks run over.
 /// \param border of this tile
@@ -377,6 +409,10 @@ namespace internal {
 
 Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options,
                                    const Progress& progress);
+std::vector<std::vector<Dual_mesh::Index>> segments_of_tiles(const std::vector<Tile>& tiles,
+                                                             const std::vector<Seed_point>& seeds,
+                                                             const Tiled_segmentation& options,
+                                                             const Progress& progress);
 
 }  // namespace internal
 
@@ -391,6 +427,22 @@ template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tiled_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options = {},
                                    const Progress& progress = {}) {
   return internal::with_threads<ConcurrencyTag>([&] { return internal::hierarchy_of_tiles(tiles, options, progress); });
+}
+
+/// Segments tiles that fit into memory together from seeds of the user: all steps, one after the other.
+///
+/// \code
+/// const auto labels = segments_of_tiles({Tile_of(north), Tile_of(south)}, {{on_tower, 0}, {on_ground, 1}});
+/// \endcode
+/// \returns the label of each face of each tile; parts that no seed can reach get the labels after the largest one
+/// \throws std::invalid_argument, Cancelled
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
+std::vector<std::vector<Dual_mesh::Index>> segments_of_tiles(const std::vector<Tile>& tiles,
+                                                             const std::vector<Seed_point>& seeds,
+                                                             const Tiled_segmentation& options = {},
+                                                             const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::segments_of_tiles(tiles, seeds, options, progress); });
 }
 
 }  // namespace RW_segmentation

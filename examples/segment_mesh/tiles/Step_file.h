@@ -116,7 +116,7 @@ class Step_reader {
 struct Step_header {
   std::array<char, 16> name{};
   std::uint64_t size = 0;
-  std::uint32_t checksum = 0, version = 2;
+  std::uint32_t checksum = 0, version = 3;
 
   Step_header() = default;
   Step_header(std::string_view kind, std::string_view content) : size(content.size()) {

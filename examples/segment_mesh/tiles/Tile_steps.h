@@ -7,9 +7,11 @@
 #include "../Oriented_mesh.h"
 #include "../Output_files.h"
 #include "../Task.h"
+#include "../check_options.h"
 #include "../failure.h"
 #include "../read_input.h"
 #include "../report.h"
+#include "../seeds.h"
 #include "../segment_colors.h"
 #include "../segments.h"
 #include "step_contents.h"
@@ -25,6 +27,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace segment_mesh {
@@ -44,8 +47,10 @@ class Tile_steps {
   };
 
   /// \param folder for what the steps leave
+  /// \throws CLI::ValidationError, mesh_files::Unreadable_file for seeds
   Tile_steps(const std::vector<Task>& tiles, const Options& options, std::string folder)
       : tasks_(tiles), options_(options), folder_(std::move(folder)) {
+    take_seeds();
     if (options.smoothing) method_.smoothing.radius = *options.smoothing;
     if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
     if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
@@ -59,6 +64,7 @@ class Tile_steps {
         {"border", true, &Tile_steps::border, {"border", "noise"}},
         {"noise", false, &Tile_steps::noise, {"noise_of_all"}},
         {"shape", true, &Tile_steps::shape, {"shape", "outline"}},
+        {"places", true, &Tile_steps::places, {"places"}},
         {"seeds", false, &Tile_steps::seeds, {"seeds"}},
         {"clusters", true, &Tile_steps::clusters, {"clusters", "network"}},
         {"walk", false, &Tile_steps::walk, {"walk"}},
@@ -100,6 +106,13 @@ class Tile_steps {
     return error || of_tile > of_survey;
   }
 
+  /// The seeds of the user in words, which the steps from `places` on depend on.
+  std::string seeds_in_words() const {
+    Json seeds = Json::array();
+    for (const auto& [point, label] : seeds_) seeds.push_back({point[0], point[1], point[2], labels_[label]});
+    return seeds.dump();
+  }
+
   /// What makes all steps what they are, in words: files that other tiles or options have left are of no use.
   std::string parameters() const {
     Json parameters = {{"tiles", Json::array()},
@@ -129,6 +142,28 @@ class Tile_steps {
  private:
   using Index = RW::Dual_mesh::Index;
   using Colors = std::vector<std::array<std::uint8_t, 3>>;
+
+  /// Takes the user's seeds, their labels numbered from 0.
+  void take_seeds() {
+    std::set<std::size_t> labels;
+    const std::vector<Seed_argument> arguments = seed_arguments(options_, options_.files.seeds);
+    for (const Seed_argument& seed : arguments) labels.insert(*seed.label);
+    labels_.assign(labels.begin(), labels.end());
+    for (const Seed_argument& seed : arguments) {
+      const Point* point = std::get_if<Point>(&seed.place);
+      if (!point)
+        throw CLI::ValidationError("--seed",
+                                   seed.text + " is the number of a face, in whichever tile: give a point, X,Y,Z");
+      const auto label = std::lower_bound(labels_.begin(), labels_.end(), *seed.label) - labels_.begin();
+      seeds_.push_back({{point->x(), point->y(), point->z()}, static_cast<Index>(label)});
+    }
+  }
+
+  /// The label of a segment: where seeds are the user's theirs, and those after the largest one for parts out of reach.
+  std::size_t label_of(std::size_t segment) const {
+    if (labels_.empty()) return segment;
+    return segment < labels_.size() ? labels_[segment] : labels_.back() + 1 + segment - labels_.size();
+  }
 
   std::string path(const Step& step, const char* file, std::size_t tile) const {
     return step.is_of_each_tile ? path_of_tile(file, tile) : folder_ + "/" + file;
@@ -235,9 +270,22 @@ class Tile_steps {
     return shape;
   }
 
+  void places(std::size_t tile) const {
+    std::vector<RW::Tile_place> places;
+    if (!seeds_.empty()) {
+      const auto plan = read<RW::Tile_plan>("plan");
+      places = RW::places_in_tile(read_shape(plan, tile), plan, seeds_);
+    }
+    write_step(path_of_tile("places", tile), "places", places);
+  }
+
   void seeds(std::size_t) const {
+    const auto plan = read<RW::Tile_plan>("plan");
+    const auto outlines = read_all<RW::Tile_outline>("outline");
     write_step(folder_ + "/seeds", "seeds",
-               RW::seeds_of_tiles(read<RW::Tile_plan>("plan"), read_all<RW::Tile_outline>("outline"), method_));
+               seeds_.empty()
+                   ? RW::seeds_of_tiles(plan, outlines, method_)
+                   : RW::seeds_of_tiles(plan, outlines, seeds_, read_all<std::vector<RW::Tile_place>>("places")));
   }
 
   void clusters(std::size_t tile) const {
@@ -274,8 +322,10 @@ class Tile_steps {
   /// The segments of fragments, with the share of the area and the colour of each.
   void merge(std::size_t) const {
     const auto regions = read_all<RW::Tile_regions>("regions");
-    const RW::Merge_tree tree = RW::merge_tiles(read<RW::Tile_walk>("walk"), regions);
-    const std::size_t suggested = RW::Cost_threshold_stop(1)(tree);
+    const auto walk = read<RW::Tile_walk>("walk");
+    const RW::Merge_tree tree =
+        seeds_.empty() ? RW::merge_tiles(walk, regions) : RW::Merge_tree(walk.number_of_fragments, {});
+    const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : walk.number_of_fragments;
     const std::vector<std::size_t> segment = tree.segment_of_fragments(options_.segments.value_or(suggested));
     const std::size_t segments = segment.empty() ? 0 : *std::max_element(segment.begin(), segment.end()) + 1;
 
@@ -337,10 +387,11 @@ class Tile_steps {
       for (std::size_t f = 0; f < fragments.size(); ++f)
         result.label[order.face_descriptors.at(f)] = all.of_fragment.at(fragments[f]);
       const auto faces = faces_in_file_order(soup, input);
-      for (const std::size_t label : in_file_order(faces, result.label)) ++faces_of_segment[label];
+      for (const std::size_t segment : in_file_order(faces, result.label)) ++faces_of_segment[segment];
+      for (std::size_t& label : result.label) label = label_of(label);
       std::vector<Segment> segments;
       for (std::size_t s = 0; s < all.area.size(); ++s)
-        if (faces_of_segment[s] > 0) segments.push_back({s, faces_of_segment[s], all.area[s], all.colors[s]});
+        if (faces_of_segment[s] > 0) segments.push_back({label_of(s), faces_of_segment[s], all.area[s], all.colors[s]});
       files.write(soup, nullptr, faces, result, segments);
       files.write_left_out(faces_left_out(input));
       files.commit({});
@@ -370,8 +421,11 @@ class Tile_steps {
                    {"version", version()}};
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
-          {{"label", s}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
-    if (!faces.empty()) report["levels"] = all.tree().levels(all.suggested);
+          {{"label", label_of(s)}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
+    if (!labels_.empty())
+      report["unseeded_components"] = faces.size() - labels_.size();
+    else if (!faces.empty())
+      report["levels"] = all.tree().levels(all.suggested);
     mesh_files::Output_file file(folder_ + "/report");
     file.write(report.dump() + "\n");
     file.commit();
@@ -381,6 +435,8 @@ class Tile_steps {
   const Options& options_;
   std::string folder_;
   RW::Tiled_segmentation method_;
+  std::vector<RW::Seed_point> seeds_;  ///< of the user
+  std::vector<std::size_t> labels_;    ///< of these, rising
 };
 
 }  // namespace segment_mesh

@@ -45,37 +45,50 @@ class Work_folder {
 
   /// Refuses a folder that other tiles or options have left their files in.
   void claim(const std::string& parameters) const {
-    const std::string path = path_ + "/parameters.json";
-    if (fs::exists(path)) {
-      if (mesh_files::read_content(path) != parameters)
-        throw Argument_out_of_range("--tile-folder " + path_ +
-                                    " holds the work on other tiles or with other options: give another folder, or "
-                                    "remove it");
-      return;
-    }
-    mesh_files::Output_file file(path);
-    file.write(parameters);
-    file.commit();
+    if (!agrees("parameters.json", parameters))
+      throw Argument_out_of_range("--tile-folder " + path_ +
+                                  " holds the work on other tiles or with other options: give another folder, or "
+                                  "remove it");
   }
+
+  /// Whether a file says the same; if it is not there, it does from now on.
+  bool agrees(const char* name, const std::string& content) const {
+    const std::string path = path_ + "/" + name;
+    if (fs::exists(path)) return mesh_files::read_content(path) == content;
+    mesh_files::Output_file file(path);
+    file.write(content);
+    file.commit();
+    return true;
+  }
+
+  void remove(const char* name) const { fs::remove(path_ + "/" + name); }
 
  private:
   std::string path_;
   bool is_temporary_ = false;
 };
 
-/// Forgets what the steps from the second one on have left, if a tile has changed, and what tells of levels in any case.
-void forget_old_work(const Tile_steps& steps) {
+constexpr const char* seeds_file = "seeds.json";
+
+/// Forgets what has been left by the steps from the second one on, if a tile has changed, by those that seeds matter to, if
+/// the user gives others, and in any case by those that tell of levels.
+void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   bool is_any_new = false;
   for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) {
     if (steps.has_changed(t)) steps.forget(Tile_steps::named("survey"), t);
     is_any_new = is_any_new || !steps.is_done(Tile_steps::named("survey"), t);
   }
-  bool depends_on_level = false;
+  const bool has_same_seeds = folder.agrees(seeds_file, steps.seeds_in_words());
+  const std::string first = is_any_new ? "plan" : has_same_seeds ? "merge" : "places";
+  bool is_old = false;
   for (const Tile_steps::Step& step : Tile_steps::all()) {
-    depends_on_level = depends_on_level || step.name == std::string("merge");
-    if (step.name == std::string("survey") || !(is_any_new || depends_on_level)) continue;
-    for (std::size_t t = 0; t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t) steps.forget(step, t);
+    is_old = is_old || step.name == first;
+    for (std::size_t t = 0; is_old && t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
+      steps.forget(step, t);
   }
+  if (has_same_seeds) return;
+  folder.remove(seeds_file);  // last: a call that is broken off before begins anew
+  folder.agrees(seeds_file, steps.seeds_in_words());
 }
 
 /// Does a step in this process.
@@ -90,11 +103,11 @@ Exit_code do_step(const Tile_steps& steps, const Tile_steps::Step& step, std::si
   }
 }
 
-Exit_code do_all_steps(const Tile_steps& steps, const Options& options, Json& report) {
+Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const Options& options, Json& report) {
   Worker_pool pool(options.workers.value_or(std::max(1U, std::thread::hardware_concurrency())));
   Progress_bar bar(!options.is_quiet);
   Json costs = Json::object();
-  forget_old_work(steps);
+  forget_old_work(steps, folder);
   for (const Tile_steps::Step& step : Tile_steps::all()) {
     std::vector<std::size_t> jobs;
     for (std::size_t t = 0; t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
@@ -132,6 +145,9 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   folder.claim(steps.parameters());
   survive_signals();
   if (!options.tile_step.empty()) {
+    if (!folder.agrees(seeds_file, steps.seeds_in_words()))
+      throw Argument_out_of_range("--tile-folder " + folder.path() +
+                                  " holds the work from other seeds: give another folder, or leave --tile-step out");
     const Tile_steps::Step& step = Tile_steps::named(options.tile_step);
     if (step.is_of_each_tile != options.tile.has_value())
       throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
@@ -141,7 +157,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
                                   counted(tiles.size(), "tile") + ", numbered from 0");
     return do_step(steps, step, options.tile.value_or(0), options);
   }
-  const Exit_code code = do_all_steps(steps, options, report);
+  const Exit_code code = do_all_steps(steps, folder, options, report);
   if (code != success) return code;
   if (!options.files.report.empty()) {
     mesh_files::Output_file file(options.files.report);
@@ -150,6 +166,8 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   }
   if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
     say("some tiles are not oriented alike where they meet, and no segment goes on there");
+  if (const auto components = report.value("unseeded_components", std::size_t(0)); components > 0 && !options.is_quiet)
+    say(counted(components, "component") + " without a seed, each a segment of its own");
   for (const Json& failed : report["failed"]) say(failed.get<std::string>());
   if (report["failed"].empty()) return success;
   say(std::to_string(report["failed"].size()) + " of " + counted(tiles.size(), "tile") +

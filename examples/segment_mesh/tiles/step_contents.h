@@ -93,9 +93,15 @@ void transfer(Archive& a, Tile_shape::Shared_edge& x) {
 }
 
 template <class Archive>
+void transfer(Archive& a, Tile_place& x) {
+  a(x.face);
+  a(x.squared_distance);
+}
+template <class Archive>
 void transfer(Archive& a, Tile_seeds::Seed& x) {
   a(x.tile);
   a(x.face);
+  a(x.label);
 }
 template <class Archive>
 void transfer(Archive& a, Tile_seeds::Probe& x) {
@@ -110,6 +116,8 @@ void transfer(Archive& a, Tile_seeds& x) {
   a(x.ordinary.excess);
   a(x.ordinary.crease_weight);
   a(x.turned_sides);
+  a(x.are_given);
+  a(x.seeded_turn);
 }
 
 template <class Archive>
@@ -188,6 +196,7 @@ void transfer(Archive& a, Turn_sums& x) {
   a(x.edges);
   a(x.length);
   a(x.turn);
+  a(x.seeded_turn);
   a(x.counts);
 }
 

@@ -8,9 +8,6 @@
 #include <RW_segmentation/internal/brep/Patch.h>
 #include <RW_segmentation/internal/mesh/closest_face.h>
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/squared_distance_3.h>
-
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepTools.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
@@ -23,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace RW_segmentation::internal::brep {
 
@@ -75,19 +71,9 @@ class Distance_to_mesh {
   }
 
   double of_point(const gp_Pnt& point) const {
-    using Kernel = CGAL::Simple_cartesian<double>;
     const Point p = (point_of(point) / scale_ - mesh_.origin()) / mesh_.unit();
-    const auto face = tree_.closest_face(p, Point::Zero());
-    if (!face) return 0;
-    const auto kernel_point = [](const Point& q) { return Kernel::Point_3(q[0], q[1], q[2]); };
-    double least = std::numeric_limits<double>::infinity();
-    const auto corners = mesh_.corners(*face);
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-      const Kernel::Triangle_3 triangle(kernel_point(mesh_.point(corners[0])), kernel_point(mesh_.point(corners[k])),
-                                        kernel_point(mesh_.point(corners[k + 1])));
-      if (!triangle.is_degenerate()) least = std::min(least, CGAL::squared_distance(kernel_point(p), triangle));
-    }
-    return scale_ * mesh_.unit() * std::sqrt(least);
+    const auto closest = tree_.closest_face(p, Point::Zero());
+    return closest ? scale_ * mesh_.unit() * std::sqrt(closest->squared_distance) : 0;
   }
 
   const Dual_mesh& mesh_;

@@ -50,8 +50,8 @@ inline std::vector<double> weighted_angles(const Dual_mesh& mesh, double convex_
   return d;
 }
 
-RW_SEGMENTATION_INLINE std::vector<double> inward_turns(const Dual_mesh& mesh) {
-  return weighted_angles(mesh, 0, Dihedral_measure::angle);
+RW_SEGMENTATION_INLINE std::vector<double> turns(const Dual_mesh& mesh, double convex_weight) {
+  return weighted_angles(mesh, convex_weight, Dihedral_measure::angle);
 }
 
 RW_SEGMENTATION_INLINE double flat_turn(double rounding, double mean_edge_length) {

@@ -30,7 +30,7 @@ RW_SEGMENTATION_INLINE Edge_concavity::Edge_concavity(const Dual_mesh& mesh)
 }
 
 RW_SEGMENTATION_INLINE Edge_concavity::Edge_concavity(const Dual_mesh& part, const Mean_concavity& whole)
-    : inward_turn_(inward_turns(part)), mean_excess_(whole.excess) {
+    : inward_turn_(turns(part, 0)), mean_excess_(whole.excess) {
   for (double& turn : inward_turn_) turn = whole.turn > 0 ? turn / whole.turn : 0;
 }
 

@@ -40,7 +40,7 @@ inline Coarse_labels coarse_labels(const Walked_tile& walked) {
   for (const Index cluster : walked.clusters) append(number, cluster);
   labels.seeds = seeds_in(walked.seeds, number);
   std::set<std::pair<Index, Index>> is_seed;
-  for (const auto& [tile, face] : walked.seeds.seeds) is_seed.emplace(tile, face);
+  for (const auto& seed : walked.seeds.seeds) is_seed.emplace(seed.tile, seed.face);
   const std::vector<Index>& tiles = walked.place.plan.tiles[number].neighbours;
   for (std::size_t h = 0; h < shape.halo.size(); ++h) {
     const auto [tile, place] = shape.halo[h];
@@ -102,7 +102,7 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::fragments_of_tile
   const Tile_shape& shape = tile.shape;
   const std::size_t number = tile.place.number;
   internal::Coarse_labels labels = internal::coarse_labels(tile);
-  const std::vector<double> difference = internal::differences_of(shape.mesh, tile.seeds.ordinary);
+  const std::vector<double> difference = internal::differences_of(shape.mesh, tile.seeds);
   internal::settle_band(shape.mesh.graph(), internal::conductances_of(shape.mesh, difference),
                         {labels.is_in_band, labels.seeds}, labels.fragment, progress);
   const Learned_cost cost(shape.mesh, internal::thickness_in(shape, number, tile.seeds, tile.walk),
@@ -153,9 +153,20 @@ RW_SEGMENTATION_INLINE std::vector<std::vector<std::size_t>> Tiled_hierarchy::se
   return result;
 }
 
-RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
-                                                                    const Tiled_segmentation& options,
-                                                                    const Progress& progress) {
+namespace internal {
+
+/// What the steps up to the fragments leave of tiles that are in memory together.
+struct Walked_tiles {
+  Tile_seeds seeds;
+  Tile_walk walk;
+  std::vector<Tile_regions> regions;                            // by tile
+  std::vector<std::vector<Dual_mesh::Index>> fragment_of_face;  // by tile and face
+};
+
+/// \param place_seeds a function from the plan, shapes and outlines of the tiles to their seeds
+template <class Place_seeds>
+Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Tiled_segmentation& options,
+                                       const Place_seeds& place_seeds, const Progress& progress) {
   const std::size_t count = tiles.size();
   std::vector<Tile_survey> surveys;
   for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
@@ -183,27 +194,60 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::v
     shapes.push_back(std::move(shaped.shape));
     outlines[t] = std::move(shaped.outline);
   }
-  const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options, progress.part(0.6, 0.65));
+  Walked_tiles walked;
+  walked.seeds = place_seeds(plan, shapes, outlines, progress.part(0.6, 0.65));
   std::vector<Tile_clusters> clusters;
   std::vector<Tile_network> networks(count);
   for (std::size_t t = 0; t < count; ++t) {
     part(0.65, 0.75, t)(0);
-    clusters.push_back(clusters_of_tile(shapes[t], {t, plan}, borders[t], seeds, networks[t], options));
+    clusters.push_back(clusters_of_tile(shapes[t], {t, plan}, borders[t], walked.seeds, networks[t], options));
   }
-  const Tile_walk walk = walk_over_tiles(plan, seeds, networks, options, progress.part(0.75, 0.85));
-
-  Tiled_hierarchy hierarchy;
-  std::vector<Tile_regions> regions(count);
+  walked.walk = walk_over_tiles(plan, walked.seeds, networks, options, progress.part(0.75, 0.85));
+  walked.regions.resize(count);
   for (std::size_t t = 0; t < count; ++t)
-    hierarchy.fragment_of_face.push_back(fragments_of_tile(
-        {{t, plan}, shapes[t], clusters[t], of_neighbours(borders, t), of_neighbours(networks, t), seeds, walk},
-        regions[t], part(0.85, 0.95, t)));
-  hierarchy.tree = merge_tiles(walk, regions, progress.part(0.95, 1));
-  hierarchy.components = walk.components;
-  hierarchy.clusters = walk.clusters;
-  hierarchy.turned_sides = seeds.turned_sides;
+    walked.fragment_of_face.push_back(fragments_of_tile({{t, plan},
+                                                         shapes[t],
+                                                         clusters[t],
+                                                         of_neighbours(borders, t),
+                                                         of_neighbours(networks, t),
+                                                         walked.seeds,
+                                                         walked.walk},
+                                                        walked.regions[t], part(0.85, 0.95, t)));
+  return walked;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
+                                                                    const Tiled_segmentation& options,
+                                                                    const Progress& progress) {
+  internal::Walked_tiles walked = internal::walk_over_tiles_in_memory(
+      tiles, options,
+      [&](const Tile_plan& plan, const std::vector<Tile_shape>&, const std::vector<Tile_outline>& outlines,
+          const Progress& part) { return seeds_of_tiles(plan, outlines, options, part); },
+      progress);
+  Tiled_hierarchy hierarchy;
+  hierarchy.tree = merge_tiles(walked.walk, walked.regions, progress.part(0.95, 1));
+  hierarchy.fragment_of_face = std::move(walked.fragment_of_face);
+  hierarchy.components = walked.walk.components;
+  hierarchy.clusters = walked.walk.clusters;
+  hierarchy.turned_sides = walked.seeds.turned_sides;
   progress(1);
   return hierarchy;
+}
+
+RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> internal::segments_of_tiles(
+    const std::vector<Tile>& tiles, const std::vector<Seed_point>& seeds, const Tiled_segmentation& options,
+    const Progress& progress) {
+  const auto given = [&](const Tile_plan& plan, const std::vector<Tile_shape>& shapes,
+                         const std::vector<Tile_outline>& outlines, const Progress&) {
+    std::vector<std::vector<Tile_place>> places;
+    for (const Tile_shape& shape : shapes) places.push_back(places_in_tile(shape, plan, seeds));
+    return seeds_of_tiles(plan, outlines, seeds, places);
+  };
+  internal::Walked_tiles walked = internal::walk_over_tiles_in_memory(tiles, options, given, progress);
+  progress(1);
+  return std::move(walked.fragment_of_face);
 }
 
 }  // namespace RW_segmentation

@@ -10,6 +10,7 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/mesh/closest_face.h>
 #include <RW_segmentation/internal/seeds/Distances_to_sources.h>
 #include <RW_segmentation/internal/seeds/farthest_points.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
@@ -23,6 +24,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,21 +36,30 @@ namespace internal {
 
 // ---- Seeds ----
 
-/// The means over all tiles.
-inline Mean_concavity ordinary_concavity(const Tile_plan& plan, const std::vector<Tile_outline>& outlines) {
-  double edges = 0, length = 0, turn = 0;
-  Turn_histogram::Counts counts;
+/// What both kinds of seeds need: the means over all tiles.
+inline Tile_seeds seeds_without_places(const Tile_plan& plan, const std::vector<Tile_outline>& outlines) {
+  Tile_seeds seeds;
+  Turn_sums sums;
   for (const Tile_outline& outline : outlines) {
-    edges += outline.turns.edges;
-    length += outline.turns.length;
-    turn += outline.turns.turn;
-    Turn_histogram::add(outline.turns.counts, counts);
+    sums.edges += outline.turns.edges;
+    sums.length += outline.turns.length;
+    sums.turn += outline.turns.turn;
+    sums.seeded_turn += outline.turns.seeded_turn;
+    Turn_histogram::add(outline.turns.counts, sums.counts);
+    seeds.turned_sides += outline.turned_sides;
   }
-  const double mean = edges > 0 ? turn / edges : 0;
-  if (edges == 0 || mean < flat_turn(plan.box.rounding, length / edges)) return {};
-  return {mean,
-          Turn_histogram::mean(counts, [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; }),
-          crease_weight(static_cast<std::size_t>(edges))};
+  if (sums.edges == 0) return seeds;
+  const auto mean_of = [&](double sum) {  // 0 where all is flat
+    const double mean = sum / sums.edges;
+    return mean < flat_turn(plan.box.rounding, sums.length / sums.edges) ? 0 : mean;
+  };
+  seeds.seeded_turn = mean_of(sums.seeded_turn);
+  const double mean = mean_of(sums.turn);
+  if (mean == 0) return seeds;
+  const auto excess = [&](double t) { return t > mean ? std::sqrt(t * t / (mean * mean) - 1) : 0; };
+  seeds.ordinary = {mean, Turn_histogram::mean(sums.counts, excess),
+                    crease_weight(static_cast<std::size_t>(sums.edges))};
+  return seeds;
 }
 
 /// The coarse graph of the whole, with the lengths of its edges.
@@ -81,13 +94,10 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
                                                  const Tiled_segmentation& options, const Progress& progress) {
   using Index = Dual_graph::Index;
   if (options.seeds == 0) throw internal::argument_error("seeds", options.seeds, "at least 1");
-  Tile_seeds result;
-  result.ordinary = internal::ordinary_concavity(plan, outlines);
-  for (std::size_t t = 0; t < outlines.size(); ++t) {
+  Tile_seeds result = internal::seeds_without_places(plan, outlines);
+  for (std::size_t t = 0; t < outlines.size(); ++t)
     for (const internal::Thickness_probe& probe : outlines[t].probes)
       result.probes.push_back({static_cast<Index>(t), probe});
-    result.turned_sides += outlines[t].turned_sides;
-  }
   std::vector<double> lengths;
   const Dual_graph graph = internal::coarse_graph(outlines, lengths);
   if (graph.number_of_faces() == 0) return result;
@@ -100,7 +110,43 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
   const internal::Joined_nodes numbers(outlines, [](const Tile_outline& outline) { return outline.faces.size(); });
   for (const Index node : nodes) {
     const auto [tile, place] = numbers.tile_and_place(node);
-    result.seeds.push_back({tile, outlines[tile].faces[place]});
+    result.seeds.push_back({tile, outlines[tile].faces[place], static_cast<Index>(result.seeds.size())});
+  }
+  return result;
+}
+
+RW_SEGMENTATION_INLINE std::vector<Tile_place> places_in_tile(const Tile_shape& shape, const Tile_plan& plan,
+                                                              const std::vector<Seed_point>& seeds) {
+  std::vector<Tile_place> places(seeds.size(), {0, std::numeric_limits<double>::infinity()});
+  if (seeds.empty()) return places;
+  const internal::Triangle_tree triangles(shape.mesh, shape.own_faces);
+  for (std::size_t s = 0; s < seeds.size(); ++s)
+    if (const auto closest = triangles.closest_face(plan.box.scaled(seeds[s].point), Eigen::Vector3d::Zero()))
+      places[s] = {closest->face, closest->squared_distance};
+  return places;
+}
+
+RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>& outlines,
+                                                 const std::vector<Seed_point>& seeds,
+                                                 const std::vector<std::vector<Tile_place>>& places) {
+  using Index = Dual_mesh::Index;
+  if (seeds.empty()) throw std::invalid_argument("no seeds");
+  Tile_seeds result = internal::seeds_without_places(plan, outlines);
+  result.are_given = true;
+  std::map<std::pair<Index, Index>, Index> label_of;
+  for (std::size_t s = 0; s < seeds.size(); ++s) {
+    std::vector<double> distance;
+    for (const std::vector<Tile_place>& of_tile : places) distance.push_back(of_tile.at(s).squared_distance);
+    const auto closest = std::min_element(distance.begin(), distance.end());
+    if (closest == distance.end() || std::isinf(*closest)) throw std::invalid_argument("no tile has a face");
+    const auto tile = static_cast<Index>(closest - distance.begin());
+    const Tile_seeds::Seed seed = {tile, places[tile][s].face, seeds[s].label};
+    const auto [known, is_new] = label_of.emplace(std::pair(seed.tile, seed.face), seed.label);
+    if (known->second != seed.label)
+      throw std::invalid_argument("seeds with the labels " + std::to_string(known->second) + " and " +
+                                  std::to_string(seed.label) + " are closest to the same face, " +
+                                  std::to_string(seed.face) + " of tile " + std::to_string(seed.tile));
+    if (is_new) result.seeds.push_back(seed);
   }
   return result;
 }
@@ -109,9 +155,15 @@ namespace internal {
 
 // ---- Clusters ----
 
-/// The difference of each edge of a tile and its halo, that of `smoothed_concavity()` on the whole.
-inline std::vector<double> differences_of(const Dual_mesh& part, const Mean_concavity& ordinary) {
-  const Edge_concavity concavity(part, ordinary);
+/// The difference of each edge of a tile and its halo: that of `smoothed_concavity()` on the whole, or of
+/// `seeded_concavity()` where seeds are the user's.
+inline std::vector<double> differences_of(const Dual_mesh& part, const Tile_seeds& seeds) {
+  if (seeds.are_given) {
+    std::vector<double> difference = turns(part, seeded_concavity().convex_weight);
+    for (double& d : difference) d = seeds.seeded_turn > 0 ? d / seeds.seeded_turn : 0;
+    return difference;
+  }
+  const Edge_concavity concavity(part, seeds.ordinary);
   std::vector<double> difference(part.number_of_edges());
   for (Dual_mesh::Index e = 0; e < difference.size(); ++e) difference[e] = concavity.excess(e);
   return difference;
@@ -150,7 +202,7 @@ RW_SEGMENTATION_INLINE Tile_clusters internal::clusters_of_tile(const Tile_shape
   internal::require_reduction_numbers(options.reduction);
   const internal::Own_graph own(shape);
   const std::vector<double> conductances =
-      internal::conductances_of(shape.mesh, internal::differences_of(shape.mesh, seeds.ordinary));
+      internal::conductances_of(shape.mesh, internal::differences_of(shape.mesh, seeds));
   const internal::Face_clusters clusters = internal::clusters_around(
       internal::seeds_in(seeds, number), own.graph, own.own(conductances), own.own(shape.mesh.edge_lengths()),
       options.reduction.largest_difference, internal::cluster_steps(plan.faces, options.reduction.cluster_steps));
@@ -228,11 +280,17 @@ RW_SEGMENTATION_INLINE Tile_walk internal::walk_over_tiles(const Tile_plan& plan
   const internal::Components components(graph, [&](Index edge) { return conductances[edge] > 0; });
   walk.components = components.count;
   std::vector<Index> seeds_before(networks.size(), 0), seed_nodes;  // a tile's seeds are its first clusters
-  for (const auto& [tile, face] : seeds.seeds) seed_nodes.push_back(nodes(tile, seeds_before[tile]++));
+  std::vector<std::size_t> labels;
+  for (const auto& [tile, face, label] : seeds.seeds) {
+    seed_nodes.push_back(nodes(tile, seeds_before[tile]++));
+    labels.push_back(label);
+  }
   internal::Any_walk_solver solver{Star_mesh_elimination()};
   solver.analyze(graph);
+  const internal::Walk_network network = {graph, conductances, components};
   const internal::Fragments fragments =
-      internal::walk_fragments({graph, conductances, components}, std::move(solver), seed_nodes, progress);
+      seeds.are_given ? internal::walk_from_seeds(network, std::move(solver), seed_nodes, labels, progress)
+                      : internal::walk_fragments(network, std::move(solver), seed_nodes, progress);
   walk.island_clusters = fragments.island_faces;
 
   std::vector<char> is_in_band(walk.clusters, false);

@@ -25,7 +25,7 @@ inline std::vector<Dual_mesh::Index> closest_faces(const Dual_mesh& mesh, const 
       auto found = reduced.closest_face(centroid, mesh.normal(static_cast<Dual_mesh::Index>(f)));
       if (!found) found = reduced.closest_face(centroid, Eigen::Vector3d::Zero());
       if (!found) throw std::invalid_argument("the reduced mesh has no face with an area");
-      closest[f] = *found;
+      closest[f] = found->face;
     }
   });
   return closest;

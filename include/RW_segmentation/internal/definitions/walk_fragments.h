@@ -18,6 +18,15 @@
 
 namespace RW_segmentation::internal {
 
+RW_SEGMENTATION_INLINE Fragments walk_from_seeds(const Walk_network& network, Any_walk_solver analysed,
+                                                 const std::vector<Dual_graph::Index>& seeds,
+                                                 const std::vector<std::size_t>& labels, const Progress& progress) {
+  Seeded_walk walk(network.graph, network.conductances, std::move(analysed), progress);
+  walk.solver_is_analysed();
+  for (std::size_t s = 0; s < seeds.size(); ++s) walk.add_seed(seeds[s], labels[s]);
+  return {walk.labels(), walk.report().island_faces};
+}
+
 RW_SEGMENTATION_INLINE Fragments walk_fragments(const Walk_network& network, Any_walk_solver analysed,
                                                 const std::vector<Dual_graph::Index>& seeds, const Progress& progress) {
   const Components& component = network.component;
@@ -27,11 +36,9 @@ RW_SEGMENTATION_INLINE Fragments walk_fragments(const Walk_network& network, Any
   for (const auto seed : seeds)
     if (seeds_in[component.of[seed]] > 1) walked.push_back(seed);
   if (walked.empty()) return {{component.of.begin(), component.of.end()}};
-
-  Seeded_walk walk(network.graph, network.conductances, std::move(analysed), progress);
-  walk.solver_is_analysed();
-  for (std::size_t s = 0; s < walked.size(); ++s) walk.add_seed(walked[s], s);
-  return {walk.labels(), walk.report().island_faces};
+  std::vector<std::size_t> numbers(walked.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t(0));
+  return walk_from_seeds(network, std::move(analysed), walked, numbers, progress);
 }
 
 RW_SEGMENTATION_INLINE Fragments walk_fragments_over_clusters(

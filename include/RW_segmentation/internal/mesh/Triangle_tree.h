@@ -89,9 +89,16 @@ class Triangle_tree {
   /// \param direction a unit vector
   double exit_distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, Index start) const;
 
-  /// Defined in `closest_face.h`. The face of the triangle that is closest to a point, the lowest on a tie, among those that look into a direction
-  /// rather than away from it; nothing if there is none. Any triangle with an area will do for the zero vector.
-  std::optional<Index> closest_face(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+  /// A face, and how far it is from a point.
+  struct Near_face {
+    Index face;
+    double squared_distance;
+  };
+
+  /// Defined in `closest_face.h`. The face of the triangle that is closest to a point, the lowest on a tie, among those that
+  /// look into a direction rather than away from it; nothing if there is none. Any triangle with an area will do for the
+  /// zero vector.
+  std::optional<Near_face> closest_face(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
 
  private:
   static constexpr std::size_t triangles_per_leaf = 4;

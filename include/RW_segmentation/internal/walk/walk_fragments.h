@@ -17,10 +17,18 @@ namespace RW_segmentation::internal {
 
 /// The regions that walks from seeds make, before they are merged.
 struct Fragments {
-  std::vector<std::size_t> of_face;  ///< numbered from 0: those of the seeds that walks begin at, then whole components
+  std::vector<std::size_t> of_face;  ///< those of the seeds that walks begin at, then whole components
   std::size_t island_faces = 0;      ///< moved, see `Walk_report`
   std::size_t clusters = 0;          ///< that the walk ran over; 0 if it ran over faces
 };
+
+/// The labels that walks from seeds give; components without a seed get those after the largest one.
+/// \param analysed a solver that has analysed the graph
+/// \param seeds all different, at least one
+/// \param labels of the seeds
+Fragments walk_from_seeds(const Walk_network& network, Any_walk_solver analysed,
+                          const std::vector<Dual_graph::Index>& seeds, const std::vector<std::size_t>& labels,
+                          const Progress& progress);
 
 /// The fragments that walks from seeds make. A component with a single seed, or none, is one without a walk.
 /// \param analysed a solver that has analysed the graph
