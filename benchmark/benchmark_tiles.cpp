@@ -6,13 +6,21 @@
 #include "measurement.h"
 #include "segmentation_measures.h"
 
+#include <RW_segmentation/Conductance.h>
+#include <RW_segmentation/Dihedral_difference.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/Random_walk.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <CGAL/subdivision_method_3.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <boost/property_map/property_map.hpp>
 
 #ifdef RW_SEGMENTATION_WITH_METIS
 #include <metis.h>
@@ -139,26 +147,82 @@ double border_share(const Mesh& mesh, const Labels& tile, const Labels& segment)
   return between_tiles > 0 ? between_segments / between_tiles : 0;
 }
 
+/// For each segment the face whose centroid is closest to that of the segment.
+std::map<std::size_t, Dual_mesh::Index> middle_faces(const Dual_mesh_of<Mesh>& mesh, const Labels& segment) {
+  std::map<std::size_t, Eigen::Vector4d> sums;  // of centroid and 1, times area
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
+    Eigen::Vector4d& sum = sums.emplace(segment[mesh.face(f)], Eigen::Vector4d::Zero()).first->second;
+    sum += mesh.area(f) * mesh.centroid(f).homogeneous();
+  }
+  std::map<std::size_t, Dual_mesh::Index> middle;
+  const auto distance = [&](Dual_mesh::Index f) {
+    return (mesh.centroid(f) - sums.at(segment[mesh.face(f)]).hnormalized()).norm();
+  };
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
+    const auto [place, is_new] = middle.emplace(segment[mesh.face(f)], f);
+    if (distance(f) < distance(place->second)) place->second = f;
+  }
+  return middle;
+}
+
+/// The labels of walks over the faces of the whole from a seed in the middle of each segment.
+Labels walk_over_faces(const Dual_mesh_of<Mesh>& mesh, const std::map<std::size_t, Dual_mesh::Index>& seeds) {
+  const Dual_mesh_of shape = smoothed_shape(mesh);
+  Random_walk walk(shape, Conductance(shape, Dihedral_difference(shape, seeded_concavity())));
+  for (const auto& [label, face] : seeds) walk.add_seed(mesh.face(face), label);
+  Labels labels(mesh.number_of_faces());
+  walk.segment(boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh.mesh())));
+  return labels;
+}
+
+/// Labels by tile and face, as those of the mesh.
+template <class Label>
+Labels of_whole(const std::vector<std::vector<Label>>& of_tiles, const std::vector<std::vector<Face>>& faces) {
+  std::size_t count = 0;
+  for (const auto& of_tile : faces) count += of_tile.size();
+  Labels labels(count);
+  for (std::size_t t = 0; t < faces.size(); ++t)
+    for (std::size_t f = 0; f < faces[t].size(); ++f) labels[faces[t][f]] = of_tiles[t][f];
+  return labels;
+}
+
+/// The share of faces whose labels differ.
+double share_of_different(const Labels& a, const Labels& b) {
+  std::size_t different = 0;
+  for (std::size_t f = 0; f < a.size(); ++f) different += a[f] != b[f];
+  return static_cast<double>(different) / static_cast<double>(a.size());
+}
+
 void measure(const std::string& name, const Arguments& arguments, std::vector<Result>& results) {
   Mesh mesh = read_subdivided(name, arguments.faces);
   const auto labels = mesh.add_property_map<Face, std::size_t>("f:segment").first;
   const auto as_labels = [&] { return Labels(labels.begin(), labels.end()); };
-  const auto segment = [&](std::size_t largest_direct) {
-    Automatic_segmentation policy;
-    policy.reduction.largest_direct = largest_direct;
-    policy.seedings = 1;  // as tiles have
+  Automatic_segmentation policy;
+  policy.seedings = 1;  // as tiles have
+  const auto segment = [&] {
     const Stopwatch watch;
     segmentation_via_random_walks<CGAL::Sequential_tag>(mesh, labels, policy);
     return watch.milliseconds();
   };
-  segment(mesh.number_of_faces());
-  const Labels direct = as_labels();
-  const double whole_ms = segment(0);
+  policy.reduction.largest_direct = 0;
+  const double whole_ms = segment();
+  const Labels usual = as_labels();
+  policy.seeding.sampling = Farthest_point_sampling(policy.seeding.sampling.normal_weight(), mesh.number_of_faces());
+  segment();
   const Labels whole = as_labels();
+  policy.reduction.largest_direct = mesh.number_of_faces();
+  segment();
+  const Labels direct = as_labels();
   const std::size_t segments_of_whole = std::set<std::size_t>(whole.begin(), whole.end()).size();
+  const double of_seeds = segmentation_measures::Overlaps(usual, whole).rand_index_error();
   const double of_reduction = segmentation_measures::Overlaps(direct, whole).rand_index_error();
 
   const Dual_mesh_of dual(mesh);
+  const auto middle = middle_faces(dual, whole);
+  const Labels walked = walk_over_faces(dual, middle);
+  std::vector<Seed_point> seeds;
+  for (const auto& [label, face] : middle)
+    seeds.push_back({dual.unit() * dual.centroid(face) + dual.origin(), static_cast<Dual_mesh::Index>(label)});
   for (const std::string& kind : arguments.cuts)
     for (const std::size_t count : arguments.tiles) {
       Labels tile = kind == "metis" ? cut_by_metis(dual, count) : cut_by_grid(dual, count);
@@ -169,21 +233,22 @@ void measure(const std::string& name, const Arguments& arguments, std::vector<Re
       const std::size_t segments = Cost_threshold_stop(1)(hierarchy.tree);
       const auto of_tiles = hierarchy.segments(segments);
       const double tiled_ms = watch.milliseconds();
-      Labels tiled(mesh.number_of_faces());
-      for (std::size_t t = 0; t < tiles.size(); ++t)
-        for (std::size_t f = 0; f < faces[t].size(); ++f) tiled[faces[t][f]] = of_tiles[t][f];
+      const Labels tiled = of_whole(of_tiles, faces);
+      const double from_seeds = share_of_different(walked, of_whole(segments_of_tiles(tiles, seeds), faces));
       const double error = segmentation_measures::Overlaps(whole, tiled).rand_index_error();
       const double share = border_share(mesh, tile, tiled), share_of_whole = border_share(mesh, tile, whole);
-      std::printf("%-12s %8zu %-6s %5zu %9.4f %9.4f %8.4f %8.4f %6zu %6zu %9.0f %9.0f %6.2f\n",
+      std::printf("%-12s %8zu %-6s %5zu %9.4f %9.4f %9.4f %8.4f %8.4f %6zu %6zu %8.4f %9.0f %9.0f %6.2f\n",
                   std::filesystem::path(name).stem().c_str(), std::size_t(mesh.number_of_faces()), kind.c_str(),
-                  tiles.size(), error, of_reduction, share, share_of_whole, segments, segments_of_whole, tiled_ms,
-                  whole_ms, tiled_ms / whole_ms);
+                  tiles.size(), error, of_reduction, of_seeds, share, share_of_whole, segments, segments_of_whole, from_seeds,
+                  tiled_ms, whole_ms, tiled_ms / whole_ms);
       std::fflush(stdout);
       Result& result = results.emplace_back("tiles");
       result.add("mesh", std::filesystem::path(name).stem().string()).add("faces", std::size_t(mesh.number_of_faces()));
       result.add("cut", kind).add("tiles", tiles.size()).add("error", error).add("error_of_reduction", of_reduction);
+      result.add("error_of_seeds_over_clusters", of_seeds);
       result.add("border_share", share).add("border_share_of_whole", share_of_whole);
       result.add("segments", segments).add("segments_of_whole", segments_of_whole);
+      result.add("different_from_seeds", from_seeds);
       result.add("tiled_ms", tiled_ms).add("whole_ms", whole_ms);
     }
 }
@@ -194,10 +259,10 @@ int main(int argc, char** argv) try {
   Arguments arguments;
   CLI::App app(
       "Cuts meshes into tiles, segments them tile by tile and as a whole, and compares: the Rand index error between "
-      "both; "
-      "that between two ways to segment the whole, over faces and over clusters of them; the share of the borders "
-      "between "
-      "tiles that lies between segments, tiled and whole; segments; time.");
+      "both, where seeds are placed over faces and walks run over clusters; that between two ways to segment the whole, "
+      "walks over faces and over clusters, and between two more, seeds placed over faces and over clusters; the share of "
+      "the borders between tiles that lies between segments, tiled and whole; segments; the share of faces that get "
+      "another label from a seed in each segment of the whole, tiled or by walks over the faces of the whole; time.");
   app.add_option("--meshes", arguments.meshes, "Files, or names of CGAL's data meshes")
       ->delimiter(',')
       ->capture_default_str();
@@ -212,8 +277,8 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  std::printf("%-12s %8s %-6s %5s %9s %9s %8s %8s %6s %6s %9s %9s %6s\n", "mesh", "faces", "cut", "tiles", "error",
-              "reduction", "border", "whole", "segm.", "whole", "tiled ms", "whole ms", "ratio");
+  std::printf("%-12s %8s %-6s %5s %9s %9s %9s %8s %8s %6s %6s %8s %9s %9s %6s\n", "mesh", "faces", "cut", "tiles", "error",
+              "reduction", "of seeds", "border", "whole", "segm.", "whole", "seeds", "tiled ms", "whole ms", "ratio");
   std::vector<Result> results;
   for (const std::string& mesh : arguments.meshes) measure(mesh, arguments, results);
   print(results);
