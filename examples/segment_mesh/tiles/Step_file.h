@@ -10,12 +10,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <boost/crc.hpp>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -36,13 +35,16 @@ struct Is_plain<Eigen::Matrix<double, rows, columns>> : std::bool_constant<rows 
 // same program on machines of the same kind. The first bytes tell the kind of the content and a checksum of the rest, so
 // that a file that was broken off, changed or left by another version is found out.
 
-/// Collects the content of a file.
+/// Passes what a file is made of, byte by byte as it lies in memory, to a function of a pointer and a size.
+template <class Use>
 class Step_writer {
  public:
+  explicit Step_writer(Use use) : use_(std::move(use)) {}
+
   template <class T>
   void operator()(const T& value) {
     if constexpr (Is_plain<T>::value)
-      append(&value, sizeof(T));
+      use_(reinterpret_cast<const char*>(&value), sizeof(T));
     else
       transfer(*this, const_cast<T&>(value));  // reads it
   }
@@ -51,20 +53,29 @@ class Step_writer {
   void operator()(const std::vector<T>& values) {
     (*this)(std::uint64_t(values.size()));
     if constexpr (Is_plain<T>::value)
-      append(values.data(), values.size() * sizeof(T));
+      use_(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
     else
       for (const T& value : values) (*this)(value);
   }
 
   void operator()(const std::string& text) { (*this)(std::vector<char>(text.begin(), text.end())); }
 
-  const std::string& bytes() const { return bytes_; }
-
  private:
-  void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
-
-  std::string bytes_;
+  Use use_;
 };
+
+/// What a file is made of, in memory that is asked for once: it may be hundreds of megabytes.
+template <class... Values>
+std::string bytes_of(const Values&... values) {
+  std::size_t size = 0;
+  Step_writer count([&](const char*, std::size_t more) { size += more; });
+  (count(values), ...);
+  std::string bytes;
+  bytes.reserve(size);
+  Step_writer append([&](const char* data, std::size_t more) { bytes.append(data, more); });
+  (append(values), ...);
+  return bytes;
+}
 
 /// Takes the content of a file apart in the order in which it was written.
 class Step_reader {
@@ -115,15 +126,12 @@ class Step_reader {
 /// Names the content of a file and tells whether it is whole.
 struct Step_header {
   std::array<char, 16> name{};
-  std::uint64_t size = 0;
-  std::uint32_t checksum = 0, version = 3;
+  std::uint64_t size = 0, checksum = 0, version = 3;
 
   Step_header() = default;
-  Step_header(std::string_view kind, std::string_view content) : size(content.size()) {
+  Step_header(std::string_view kind, std::string_view content)
+      : size(content.size()), checksum(std::hash<std::string_view>()(content)) {
     kind.copy(name.data(), name.size());
-    boost::crc_32_type sum;
-    sum.process_bytes(content.data(), content.size());
-    checksum = sum.checksum();
   }
   bool operator==(const Step_header& other) const {
     return name == other.name && size == other.size && checksum == other.checksum && version == other.version;
@@ -142,24 +150,23 @@ void transfer(Archive& archive, Step_header& header) {
 /// \throws mesh_files::Unwritable_file
 template <class... Values>
 void write_step(const std::string& path, std::string_view kind, const Values&... values) {
-  Step_writer header, content;
-  (content(values), ...);
-  header(Step_header(kind, content.bytes()));
+  const std::string content = bytes_of(values...);
   mesh_files::Output_file file(path);
-  file.write(header.bytes());
-  file.write(content.bytes());
+  file.write(bytes_of(Step_header(kind, content)));
+  file.write(content);
   file.commit();
 }
 
 /// \throws mesh_files::Unreadable_file if it is not there, not whole, or of another kind or version
 template <class... Values>
 void read_step(const std::string& path, std::string_view kind, Values&... values) {
-  constexpr std::size_t size_of_header = 32;
-  const std::string bytes = mesh_files::read_content(path);
+  constexpr std::size_t size_of_header = 40;
+  const mesh_files::File_content file(path);
+  const std::string_view bytes = file.bytes();
   if (bytes.size() < size_of_header) throw mesh_files::Unreadable_file(path + ": the file ends too early");
   Step_header header;
   Step_reader(bytes, path)(header);
-  const std::string_view content = std::string_view(bytes).substr(size_of_header);
+  const std::string_view content = bytes.substr(size_of_header);
   if (!(header == Step_header(kind, content)))
     throw mesh_files::Unreadable_file(
         path + ": not what the step \"" + std::string(kind) +

@@ -166,7 +166,8 @@ void transfer(Archive& a, Tile_regions& x) {
 
 namespace internal {
 
-inline void transfer(segment_mesh::Step_writer& writer, Face_corners& faces) {
+template <class Use>
+void transfer(segment_mesh::Step_writer<Use>& writer, Face_corners& faces) {
   using Index = Face_corners::Index;
   std::vector<Index> sizes, corners;  // of each face; of all faces
   sizes.reserve(faces.number_of_faces());

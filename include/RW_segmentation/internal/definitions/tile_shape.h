@@ -296,8 +296,7 @@ inline Dual_mesh::Index own_face(const Tile_shape& shape, const Tile_shape::Shar
 }
 
 inline Turn_sums turn_sums(const Tile_shape& shape, const Own_graph& own, std::size_t number) {
-  const std::vector<double> inward = turns(shape.mesh, 0);
-  const std::vector<double> seeded = turns(shape.mesh, seeded_concavity().convex_weight);
+  const std::vector<double> signed_turns = turns(shape.mesh, -1);
   std::vector<Dual_mesh::Index> counted = own.edges;
   for (const auto& shared : shape.shared_edges)
     if (number < shared.neighbour) counted.push_back(shared.edge);
@@ -306,9 +305,10 @@ inline Turn_sums turn_sums(const Tile_shape& shape, const Own_graph& own, std::s
   for (const auto e : counted) {
     sums.edges += 1;
     sums.length += shape.mesh.edge_length(e);
-    sums.turn += inward[e];
-    sums.seeded_turn += seeded[e];
-    values.push_back(inward[e]);
+    const double inward = std::max(signed_turns[e], 0.), outward = std::max(-signed_turns[e], 0.);
+    sums.turn += inward;
+    sums.seeded_turn += inward + seeded_concavity().convex_weight * outward;
+    values.push_back(inward);
   }
   sums.counts = Turn_histogram::counts(values);
   return sums;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <tuple>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct Joined_faces {
   /// Complexity: linear for vertices of bounded degree.
   Joined_faces(const Face_corners& corners, std::size_t number_of_vertices) {
     const std::vector<Side> grouped = sides_by_lower_vertex(corners, number_of_vertices);
-    std::vector<std::array<Index, 4>> joined;  // faces, then vertices
+    std::vector<Joined_side> joined;
+    joined.reserve(grouped.size() / 2);
     for (std::size_t begin = 0, end = 0; begin < grouped.size(); begin = end) {
       while (end < grouped.size() && grouped[end].vertices() == grouped[begin].vertices()) ++end;
       const Side &a = grouped[begin], &b = grouped[end - 1];
@@ -40,13 +42,7 @@ struct Joined_faces {
       if (end == begin + 2 && a.face != b.face) turned_sides += 2;
       for (std::size_t i = begin; i < end; ++i) open_ends.push_back({grouped[i].from, grouped[i].to});
     }
-    std::sort(joined.begin(), joined.end());
-    sides.reserve(joined.size());
-    ends.reserve(joined.size());
-    for (const auto& [f, g, u, v] : joined) {
-      sides.push_back({f, g});
-      ends.push_back({u, v});
-    }
+    take_in_order(joined, corners.number_of_faces());
   }
 
  private:
@@ -54,6 +50,41 @@ struct Joined_faces {
     Index from, to, face;
     std::array<Index, 2> vertices() const { return {std::min(from, to), std::max(from, to)}; }
   };
+  using Joined_side = std::array<Index, 4>;  // faces, the one of the lower number first, then vertices
+
+  /// Groups things by their keys, below `number_of_keys`, and sorts each group, which is small.
+  /// \param for_each calls a function with each thing
+  /// \param sorted of as many things
+  template <class Thing, class For_each, class Key, class Less>
+  static void sort_in_groups(const For_each& for_each, std::size_t number_of_keys, const Key& key, const Less& less,
+                             std::vector<Thing>& sorted) {
+    std::vector<std::size_t> next(number_of_keys + 1, 0);
+    for_each([&](const Thing& thing) { ++next[key(thing) + std::size_t(1)]; });
+    for (std::size_t k = 0; k < number_of_keys; ++k) next[k + 1] += next[k];
+    for_each([&](const Thing& thing) { sorted[next[key(thing)]++] = thing; });
+    // Each place in `next` has moved on to the end of its group.
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < number_of_keys; ++k) {
+      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+                sorted.begin() + static_cast<std::ptrdiff_t>(next[k]), less);
+      begin = next[k];
+    }
+  }
+
+  void take_in_order(const std::vector<Joined_side>& joined, std::size_t number_of_faces) {
+    std::vector<Joined_side> sorted(joined.size());
+    sort_in_groups(
+        [&](const auto& use) {
+          for (const Joined_side& side : joined) use(side);
+        },
+        number_of_faces, [](const Joined_side& side) { return side[0]; }, std::less<>(), sorted);
+    sides.reserve(sorted.size());
+    ends.reserve(sorted.size());
+    for (const auto& [f, g, u, v] : sorted) {
+      sides.push_back({f, g});
+      ends.push_back({u, v});
+    }
+  }
 
   static std::vector<Side> sides_by_lower_vertex(const Face_corners& corners, std::size_t number_of_vertices) {
     const auto for_each_side = [&](const auto& use) {
@@ -62,21 +93,12 @@ struct Joined_faces {
         for (std::size_t k = 0; k < range.size(); ++k) use(Side{range[k], range[k + 1 < range.size() ? k + 1 : 0], f});
       }
     };
-    std::vector<std::size_t> next(number_of_vertices + 1, 0);
-    for_each_side([&](const Side& side) { ++next[side.vertices()[0] + std::size_t(1)]; });
-    for (std::size_t v = 0; v < number_of_vertices; ++v) next[v + 1] += next[v];
+    const auto is_before = [](const Side& a, const Side& b) {
+      return std::tuple(a.vertices(), a.face, a.from) < std::tuple(b.vertices(), b.face, b.from);
+    };
     std::vector<Side> grouped(corners.number_of_corners());
-    for_each_side([&](const Side& side) { grouped[next[side.vertices()[0]]++] = side; });
-    // Each place in `next` has moved on to the end of its group.
-    std::size_t begin = 0;
-    for (std::size_t v = 0; v < number_of_vertices; ++v) {
-      const auto first = grouped.begin() + static_cast<std::ptrdiff_t>(begin);
-      const auto last = grouped.begin() + static_cast<std::ptrdiff_t>(next[v]);
-      std::sort(first, last, [](const Side& a, const Side& b) {
-        return std::tuple(a.vertices(), a.face, a.from) < std::tuple(b.vertices(), b.face, b.from);
-      });
-      begin = next[v];
-    }
+    sort_in_groups(
+        for_each_side, number_of_vertices, [](const Side& side) { return side.vertices()[0]; }, is_before, grouped);
     return grouped;
   }
 };
