@@ -164,6 +164,10 @@ TEST_F(Tiles, OfWhichOneCannotBeReadLeaveTheOthersTheirSegments) {
   for (const std::size_t t : {std::size_t(0), std::size_t(2), std::size_t(3)})
     EXPECT_EQ(labels("tile_" + std::to_string(t) + ".seg").size(), faces_[t]);
   EXPECT_EQ(Json::parse(content_of(path("report.json")))["failed"].size(), 1U);
+  write("tile_1.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 0 1\n");
+  const Result without_faces = run(command({"--quiet"}));
+  EXPECT_EQ(without_faces.exit_code, 6);
+  EXPECT_NE(without_faces.errors.find("tile_1.off: no face has three different corners"), std::string::npos);
   for (std::size_t t = 0; t < 4; ++t) write(name(t), "nothing");
   EXPECT_EQ(run(command({"--quiet"})).exit_code, 2);
 }
@@ -244,6 +248,25 @@ TEST_F(Tiles, TellOfPartsThatNoSeedCanReach) {
   EXPECT_EQ(report["unseeded_components"], 1);
   EXPECT_EQ(report["segments"][0]["label"], 5);
   EXPECT_EQ(report["segments"][1]["label"], 6);
+}
+
+TEST_F(Tiles, GiveFacesThatAreLeftOutTheLabelsOfTheClosestOnes) {
+  const std::string off = content_of(path(name(0)));
+  const std::size_t counts = off.find('\n') + 1, rest = off.find('\n', counts);
+  std::istringstream line(off.substr(counts, rest - counts));
+  std::size_t points = 0, faces = 0;
+  line >> points >> faces;
+  ASSERT_EQ(run(command({"--segments", "2"})).exit_code, 0);
+  const auto before = take_labels();
+  write(name(0), "OFF\n" + std::to_string(points) + ' ' + std::to_string(faces + 1) + " 0" + off.substr(rest) + "3 0 0 1\n");
+  const Result result = run(command({"--segments", "2", "--left-out", "%.txt"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  auto after = take_labels();
+  ASSERT_EQ(after[0].size(), faces + 1);
+  EXPECT_EQ(after[0].back(), after[0].front());  // the first face has the point 0
+  after[0].pop_back();
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(content_of(path("tile_0.txt")), std::to_string(faces) + '\n');
 }
 
 TEST_F(Tiles, RefuseTheWorkOfOthers) {

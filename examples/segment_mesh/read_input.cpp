@@ -25,4 +25,9 @@ void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygo
                                     " and no faces, so that there is no surface to segment");
 }
 
+void refuse_mesh_without_faces(const std::string& path, const Oriented_mesh& input) {
+  if (input.mesh.number_of_faces() == 0)
+    throw mesh_files::Unreadable_file(path + ": no face has three different corners");
+}
+
 }  // namespace segment_mesh

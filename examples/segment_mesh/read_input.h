@@ -5,6 +5,7 @@
 
 #include "../mesh_files/Format.h"
 #include "../mesh_files/Polygon_soup.h"
+#include "Oriented_mesh.h"
 
 #include <optional>
 #include <string>
@@ -17,6 +18,10 @@ mesh_files::Polygon_soup read_input(const std::string& path, const std::optional
 
 /// \throws mesh_files::Unreadable_file
 void refuse_mesh_without_faces(const std::string& path, const mesh_files::Polygon_soup& soup);
+
+/// Where no face of the file has come into the mesh.
+/// \throws mesh_files::Unreadable_file
+void refuse_mesh_without_faces(const std::string& path, const Oriented_mesh& input);
 
 }  // namespace segment_mesh
 

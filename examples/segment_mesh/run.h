@@ -130,8 +130,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   refuse_mesh_without_faces(task.mesh, soup);
   Oriented_mesh input = oriented_mesh(soup, options.repairs);
   stages.end();
-  if (input.mesh.number_of_faces() == 0)
-    throw mesh_files::Unreadable_file(task.mesh + ": no face has three different corners");
+  refuse_mesh_without_faces(task.mesh, input);
   input.remarks.insert(input.remarks.begin(), soup.remarks.begin(), soup.remarks.end());
   remark(input.remarks);
 

@@ -59,7 +59,7 @@ class Tile_steps {
 
   static const std::vector<Step>& all() {
     static const std::vector<Step> steps = {
-        {"survey", true, &Tile_steps::survey, {"tile", "survey"}},
+        {"survey", true, &Tile_steps::survey, {"tile", "file_faces", "survey"}},
         {"plan", false, &Tile_steps::plan, {"plan"}},
         {"border", true, &Tile_steps::border, {"border", "noise"}},
         {"noise", false, &Tile_steps::noise, {"noise_of_all"}},
@@ -208,18 +208,27 @@ class Tile_steps {
 
   void survey(std::size_t tile) const {
     RW::Tile arrays;
+    std::vector<Index> tile_faces;      // by face of the file that is written
+    std::vector<std::size_t> left_out;  // faces of the file
     std::string failure;
     try {
       const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
       refuse_mesh_without_faces(tasks_[tile].mesh, soup);
       const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
-      arrays = RW::Tile_of<Mesh>(input.mesh);
+      refuse_mesh_without_faces(tasks_[tile].mesh, input);
+      RW::Tile_of<Mesh> read(input.mesh);
+      std::vector<Index> number(input.mesh.number_of_faces());
+      for (Index f = 0; f < number.size(); ++f) number[read.face_descriptors[f]] = f;
+      for (const auto face : faces_in_file_order(soup, input)) tile_faces.push_back(number[face]);
+      left_out = faces_left_out(input);
+      arrays = std::move(read);
       if (!options_.is_quiet)
         for (const std::string& remark : input.remarks) say(tasks_[tile].mesh + ": " + remark);
     } catch (const mesh_files::Unreadable_file& error) {
       failure = error.what();  // leaves the other tiles their segments
     }
     write_step(path_of_tile("tile", tile), "tile", arrays);
+    write_step(path_of_tile("file_faces", tile), "file_faces", tile_faces, left_out);
     write_step(path_of_tile("survey", tile), "survey", RW::survey_tile(arrays), failure);
   }
 
@@ -378,22 +387,22 @@ class Tile_steps {
     std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
     if (failure_of(tile).empty()) {
       Output_files files(tasks_[tile].files, options_);
-      const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
-      const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
-      const RW::Tile_of<Mesh> order(input.mesh);
+      std::vector<Index> tile_faces;
+      std::vector<std::size_t> left_out;
+      read_step(path_of_tile("file_faces", tile), "file_faces", tile_faces, left_out);
       const auto fragments = read<std::vector<Index>>("fragments", tile);
       Segmentation result;
-      result.label.resize(input.mesh.number_of_faces());
-      for (std::size_t f = 0; f < fragments.size(); ++f)
-        result.label[order.face_descriptors.at(f)] = all.of_fragment.at(fragments[f]);
-      const auto faces = faces_in_file_order(soup, input);
-      for (const std::size_t segment : in_file_order(faces, result.label)) ++faces_of_segment[segment];
-      for (std::size_t& label : result.label) label = label_of(label);
+      for (const Index fragment : fragments) result.label.push_back(label_of(all.of_fragment.at(fragment)));
+      std::vector<Mesh::Face_index> faces;
+      for (const Index face : tile_faces) {
+        faces.emplace_back(face);
+        ++faces_of_segment[all.of_fragment.at(fragments.at(face))];
+      }
       std::vector<Segment> segments;
       for (std::size_t s = 0; s < all.area.size(); ++s)
         if (faces_of_segment[s] > 0) segments.push_back({label_of(s), faces_of_segment[s], all.area[s], all.colors[s]});
-      files.write(soup, nullptr, faces, result, segments);
-      files.write_left_out(faces_left_out(input));
+      files.write(read_input(tasks_[tile].mesh, options_.format), nullptr, faces, result, segments);
+      files.write_left_out(left_out);
       files.commit({});
     }
     write_step(path_of_tile("labels", tile), "labels", faces_of_segment);
