@@ -239,8 +239,8 @@ void measure(const std::string& name, const Arguments& arguments, std::vector<Re
       const double share = border_share(mesh, tile, tiled), share_of_whole = border_share(mesh, tile, whole);
       std::printf("%-12s %8zu %-6s %5zu %9.4f %9.4f %9.4f %8.4f %8.4f %6zu %6zu %8.4f %9.0f %9.0f %6.2f\n",
                   std::filesystem::path(name).stem().c_str(), std::size_t(mesh.number_of_faces()), kind.c_str(),
-                  tiles.size(), error, of_reduction, of_seeds, share, share_of_whole, segments, segments_of_whole, from_seeds,
-                  tiled_ms, whole_ms, tiled_ms / whole_ms);
+                  tiles.size(), error, of_reduction, of_seeds, share, share_of_whole, segments, segments_of_whole,
+                  from_seeds, tiled_ms, whole_ms, tiled_ms / whole_ms);
       std::fflush(stdout);
       Result& result = results.emplace_back("tiles");
       result.add("mesh", std::filesystem::path(name).stem().string()).add("faces", std::size_t(mesh.number_of_faces()));
@@ -259,8 +259,10 @@ int main(int argc, char** argv) try {
   Arguments arguments;
   CLI::App app(
       "Cuts meshes into tiles, segments them tile by tile and as a whole, and compares: the Rand index error between "
-      "both, where seeds are placed over faces and walks run over clusters; that between two ways to segment the whole, "
-      "walks over faces and over clusters, and between two more, seeds placed over faces and over clusters; the share of "
+      "both, where seeds are placed over faces and walks run over clusters; that between two ways to segment the "
+      "whole, "
+      "walks over faces and over clusters, and between two more, seeds placed over faces and over clusters; the share "
+      "of "
       "the borders between tiles that lies between segments, tiled and whole; segments; the share of faces that get "
       "another label from a seed in each segment of the whole, tiled or by walks over the faces of the whole; time.");
   app.add_option("--meshes", arguments.meshes, "Files, or names of CGAL's data meshes")
@@ -277,8 +279,9 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  std::printf("%-12s %8s %-6s %5s %9s %9s %9s %8s %8s %6s %6s %8s %9s %9s %6s\n", "mesh", "faces", "cut", "tiles", "error",
-              "reduction", "of seeds", "border", "whole", "segm.", "whole", "seeds", "tiled ms", "whole ms", "ratio");
+  std::printf("%-12s %8s %-6s %5s %9s %9s %9s %8s %8s %6s %6s %8s %9s %9s %6s\n", "mesh", "faces", "cut", "tiles",
+              "error", "reduction", "of seeds", "border", "whole", "segm.", "whole", "seeds", "tiled ms", "whole ms",
+              "ratio");
   std::vector<Result> results;
   for (const std::string& mesh : arguments.meshes) measure(mesh, arguments, results);
   print(results);

@@ -323,9 +323,9 @@ TEST(TiledSegmentation, TakesTheFacesThatAreClosestToSeedsInAllTiles) {
     using Kernel = CGAL::Simple_cartesian<double>;
     const auto point = [](const Eigen::Vector3d& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     const auto& face = shape.faces[f];
-    return CGAL::squared_distance(point(seeds[s].point),
-                                  Kernel::Triangle_3(point(shape.points[face[0]]), point(shape.points[face[1]]),
-                                                     point(shape.points[face[2]])));
+    return CGAL::squared_distance(
+        point(seeds[s].point),
+        Kernel::Triangle_3(point(shape.points[face[0]]), point(shape.points[face[1]]), point(shape.points[face[2]])));
   };
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     double least = std::numeric_limits<double>::infinity(), of_found = least;

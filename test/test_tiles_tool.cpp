@@ -258,7 +258,8 @@ TEST_F(Tiles, GiveFacesThatAreLeftOutTheLabelsOfTheClosestOnes) {
   line >> points >> faces;
   ASSERT_EQ(run(command({"--segments", "2"})).exit_code, 0);
   const auto before = take_labels();
-  write(name(0), "OFF\n" + std::to_string(points) + ' ' + std::to_string(faces + 1) + " 0" + off.substr(rest) + "3 0 0 1\n");
+  write(name(0),
+        "OFF\n" + std::to_string(points) + ' ' + std::to_string(faces + 1) + " 0" + off.substr(rest) + "3 0 0 1\n");
   const Result result = run(command({"--segments", "2", "--left-out", "%.txt"}));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   auto after = take_labels();

@@ -67,8 +67,10 @@ constexpr std::array<Help_section, 8> help_sections = {{
      false},
     {"Tiles of one mesh",
      "With --tiled, the meshes are tiles of one mesh that may be larger than the memory. Segments, labels and the one\n"
-     "--report are those of the whole; outputs with % are written for each tile. Seeds are points, each for the closest\n"
-     "face of all tiles. Workers are processes of their own: one that is killed is started again. A tile that cannot be\n"
+     "--report are those of the whole; outputs with % are written for each tile. Seeds are points, each for the "
+     "closest\n"
+     "face of all tiles. Workers are processes of their own: one that is killed is started again. A tile that cannot "
+     "be\n"
      "read is told at the end, and the exit code is 6; the others have their segments. --tile-step does one step, as\n"
      "Snakemake, Dask and others that share jobs among machines need it; examples/collections has recipes.\n",
      false},
