@@ -133,7 +133,7 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
   if (seeds.empty()) throw std::invalid_argument("no seeds");
   Tile_seeds result = internal::seeds_without_places(plan, outlines);
   result.are_given = true;
-  std::map<std::pair<Index, Index>, Index> label_of;
+  std::map<std::pair<Index, Index>, std::size_t> seed_on;
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     std::vector<double> distance;
     for (const std::vector<Tile_place>& of_tile : places) distance.push_back(of_tile.at(s).squared_distance);
@@ -141,11 +141,10 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
     if (closest == distance.end() || std::isinf(*closest)) throw std::invalid_argument("no tile has a face");
     const auto tile = static_cast<Index>(closest - distance.begin());
     const Tile_seeds::Seed seed = {tile, places[tile][s].face, seeds[s].label};
-    const auto [known, is_new] = label_of.emplace(std::pair(seed.tile, seed.face), seed.label);
-    if (known->second != seed.label)
-      throw std::invalid_argument("seeds with the labels " + std::to_string(known->second) + " and " +
-                                  std::to_string(seed.label) + " are closest to the same face, " +
-                                  std::to_string(seed.face) + " of tile " + std::to_string(seed.tile));
+    const auto [before, is_new] = seed_on.emplace(std::pair(seed.tile, seed.face), s);
+    if (seeds[before->second].label != seed.label)
+      throw std::invalid_argument("seeds " + std::to_string(before->second) + " and " + std::to_string(s) +
+                                  ", counted from 0, have different labels and the same closest face");
     if (is_new) result.seeds.push_back(seed);
   }
   return result;
