@@ -257,7 +257,7 @@ void Mesh::find_closest_of_left_out() {
             middle += Eigen::Vector3d(p.x(), p.y(), p.z()) / static_cast<double>(end - begin);
           }
           const auto closest = tree.closest_face((middle - dual.origin()) / dual.unit(), Eigen::Vector3d::Zero());
-          speaker_[f] = closest ? dual.face(*closest).idx() : 0;
+          speaker_[f] = closest ? dual.face(closest->face).idx() : 0;
         }
       },
       polygons_.corners);
