@@ -305,6 +305,22 @@ TEST(TiledSegmentation, FromSeedsCutsWhereTheWholeIsCutHoweverItIsTiled) {
   }
 }
 
+TEST(TiledSegmentation, FromSeedsOnBothSidesOfAConvexCreaseCutsThere) {
+  const Shape cube = meshes::moved(meshes::cube(20), {-0.5, -0.5, -0.5});
+  // Much nearer to the crease on the one side than on the other.
+  const std::vector<Seed_point> seeds = {{{0, 0.45, 0.5}, 0}, {{0, 0.5, -0.1}, 1}};
+  const Labels whole = segments_of_whole(cube, seeds), tiled = tiled_segments(octants(cube), seeds);
+  std::size_t different = 0;
+  for (std::size_t f = 0; f < whole.size(); ++f) {
+    different += tiled[f] != whole[f];
+    const Eigen::Vector3d& p = cube.points[cube.faces[f][0]];
+    if (p[1] == 0.5 && p[2] < 0.4 && std::abs(p[0]) < 0.2 && p[2] > -0.1) {
+      EXPECT_EQ(tiled[f], 1U);
+    }
+  }
+  EXPECT_LE(static_cast<double>(different), 0.02 * static_cast<double>(whole.size()));
+}
+
 TEST(TiledSegmentation, TakesTheFacesThatAreClosestToSeedsInAllTiles) {
   const Shape shape = dumbbell();
   const Cut_mesh mesh = octants(shape);
