@@ -366,6 +366,8 @@ TEST(TiledSegmentation, RefusesSeedsThatContradictEachOtherOrLieNowhere) {
   const Eigen::Vector3d point(0, 0, 2);
   EXPECT_NO_THROW(segments_of_tiles(tiles, {{point, 0}, {point, 0}}));
   EXPECT_THROW(segments_of_tiles(tiles, {{point, 0}, {point, 1}}), std::invalid_argument);
+  EXPECT_THROW(segments_of_tiles(tiles, {{point, 0x80000000U}}), std::invalid_argument);
+  EXPECT_EQ(segments_of_tiles(tiles, {{point, 0x7fffffffU}})[0][0], 0x7fffffffU);
   EXPECT_THROW(segments_of_tiles(tiles, {}), std::invalid_argument);
   EXPECT_THROW(segments_of_tiles({}, {{point, 0}}), std::invalid_argument);
   EXPECT_THROW(segments_of_tiles({Tile()}, {{point, 0}}), std::invalid_argument);

@@ -5,12 +5,13 @@
 
 #include "../mesh_files/Format.h"
 #include "../mesh_files/Polygon_soup.h"
-#include "Oriented_mesh.h"
 
 #include <optional>
 #include <string>
 
 namespace segment_mesh {
+
+struct Oriented_mesh;
 
 /// Reads a mesh, by Assimp if it is of a format that nothing here reads.
 /// \throws mesh_files::Unreadable_file

@@ -189,7 +189,7 @@ struct Shaped_tile {
 /// A seed of the user: the face that is closest to a point, in whichever tile.
 struct Seed_point {
   Eigen::Vector3d point;   ///< in the coordinates of the tiles
-  Dual_mesh::Index label;  ///< of the segment, which several seeds may have
+  Dual_mesh::Index label;  ///< of the segment, below 2^31; several seeds may have the same
 };
 
 /// What `places_in_tile()` finds for a point.
@@ -321,7 +321,7 @@ std::vector<Tile_place> places_in_tile(const Tile_shape& shape, const Tile_plan&
 
 /// Takes the user's seeds, each in the tile that is closest to it, the first one where several are.
 /// \param places what `places_in_tile()` found, by tile
-/// 	hrows std::invalid_argument if there is no seed or no face, or a face gets two labels
+/// \throws std::invalid_argument if there is no seed or no face, a face gets two labels, or a label is 2^31 or more
 /// Complexity: linear.
 Tile_seeds seeds_of_tiles(const Tile_plan& plan, const std::vector<Tile_outline>& outlines,
                           const std::vector<Seed_point>& seeds, const std::vector<std::vector<Tile_place>>& places);

@@ -216,12 +216,12 @@ class Tile_steps {
       refuse_mesh_without_faces(tasks_[tile].mesh, soup);
       const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
       refuse_mesh_without_faces(tasks_[tile].mesh, input);
-      RW::Tile_of<Mesh> read(input.mesh);
+      RW::Tile_of<Mesh> tile_of_mesh(input.mesh);
       std::vector<Index> number(input.mesh.number_of_faces());
-      for (Index f = 0; f < number.size(); ++f) number[read.face_descriptors[f]] = f;
+      for (Index f = 0; f < number.size(); ++f) number[tile_of_mesh.face_descriptors[f]] = f;
       for (const auto face : faces_in_file_order(soup, input)) tile_faces.push_back(number[face]);
       left_out = faces_left_out(input);
-      arrays = std::move(read);
+      arrays = std::move(tile_of_mesh);
       if (!options_.is_quiet)
         for (const std::string& remark : input.remarks) say(tasks_[tile].mesh + ": " + remark);
     } catch (const mesh_files::Unreadable_file& error) {
@@ -393,7 +393,7 @@ class Tile_steps {
       const auto fragments = read<std::vector<Index>>("fragments", tile);
       Segmentation result;
       for (const Index fragment : fragments) result.label.push_back(label_of(all.of_fragment.at(fragment)));
-      std::vector<Mesh::Face_index> faces;
+      std::vector<Mesh::Face_index> faces;  // those of the tile: no output that tiles have asks a mesh for more
       for (const Index face : tile_faces) {
         faces.emplace_back(face);
         ++faces_of_segment[all.of_fragment.at(fragments.at(face))];

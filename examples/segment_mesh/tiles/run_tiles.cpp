@@ -45,23 +45,26 @@ class Work_folder {
 
   /// Refuses a folder that other tiles or options have left their files in.
   void claim(const std::string& parameters) const {
-    if (!agrees("parameters.json", parameters))
+    constexpr const char* file = "parameters.json";
+    if (holds_other(file, parameters))
       throw Argument_out_of_range("--tile-folder " + path_ +
                                   " holds the work on other tiles or with other options: give another folder, or "
                                   "remove it");
+    keep(file, parameters);
   }
 
-  /// Whether a file says the same; if it is not there, it does from now on.
-  bool agrees(const char* name, const std::string& content) const {
+  /// Whether there is a file of that name with another content.
+  bool holds_other(const char* name, const std::string& content) const {
     const std::string path = path_ + "/" + name;
-    if (fs::exists(path)) return mesh_files::read_content(path) == content;
-    mesh_files::Output_file file(path);
+    return fs::exists(path) && mesh_files::read_content(path) != content;
+  }
+
+  /// Writes a file, over the one that is there.
+  void keep(const char* name, const std::string& content) const {
+    mesh_files::Output_file file(path_ + "/" + name);
     file.write(content);
     file.commit();
-    return true;
   }
-
-  void remove(const char* name) const { fs::remove(path_ + "/" + name); }
 
  private:
   std::string path_;
@@ -78,17 +81,15 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
     if (steps.has_changed(t)) steps.forget(Tile_steps::named("survey"), t);
     is_any_new = is_any_new || !steps.is_done(Tile_steps::named("survey"), t);
   }
-  const bool has_same_seeds = folder.agrees(seeds_file, steps.seeds_in_words());
-  const std::string first = is_any_new ? "plan" : has_same_seeds ? "merge" : "places";
+  const bool has_other_seeds = folder.holds_other(seeds_file, steps.seeds_in_words());
+  const std::string first = is_any_new ? "plan" : has_other_seeds ? "places" : "merge";
   bool is_old = false;
   for (const Tile_steps::Step& step : Tile_steps::all()) {
     is_old = is_old || step.name == first;
     for (std::size_t t = 0; is_old && t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
       steps.forget(step, t);
   }
-  if (has_same_seeds) return;
-  folder.remove(seeds_file);  // last: a call that is broken off before begins anew
-  folder.agrees(seeds_file, steps.seeds_in_words());
+  folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
 /// Does a step in this process.
@@ -145,9 +146,10 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   folder.claim(steps.parameters());
   survive_signals();
   if (!options.tile_step.empty()) {
-    if (!folder.agrees(seeds_file, steps.seeds_in_words()))
+    if (folder.holds_other(seeds_file, steps.seeds_in_words()))
       throw Argument_out_of_range("--tile-folder " + folder.path() +
                                   " holds the work from other seeds: give another folder, or leave --tile-step out");
+    folder.keep(seeds_file, steps.seeds_in_words());
     const Tile_steps::Step& step = Tile_steps::named(options.tile_step);
     if (step.is_of_each_tile != options.tile.has_value())
       throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"

@@ -133,8 +133,10 @@ RW_SEGMENTATION_INLINE Tile_seeds seeds_of_tiles(const Tile_plan& plan, const st
   if (seeds.empty()) throw std::invalid_argument("no seeds");
   Tile_seeds result = internal::seeds_without_places(plan, outlines);
   result.are_given = true;
+  constexpr Index largest_label = std::numeric_limits<Index>::max() / 2;  // parts out of reach get larger ones
   std::map<std::pair<Index, Index>, std::size_t> seed_on;
   for (std::size_t s = 0; s < seeds.size(); ++s) {
+    if (seeds[s].label > largest_label) throw internal::argument_error("label", seeds[s].label, "below 2^31");
     std::vector<double> distance;
     for (const std::vector<Tile_place>& of_tile : places) distance.push_back(of_tile.at(s).squared_distance);
     const auto closest = std::min_element(distance.begin(), distance.end());
