@@ -3,3 +3,4 @@
 // Meshes that come in tiles.
 
 #include <RW_segmentation/internal/definitions/tiled_segmentation.h>
+#include <RW_segmentation/internal/definitions/tiled_surfaces.h>

@@ -561,7 +561,7 @@ Fragments fragments_of(const meshes::Shape& shape, const std::vector<std::size_t
   Fragments result{std::vector<std::size_t>(fragment.size()), {}};
   for (Dual_mesh::Index f = 0; f < fragment.size(); ++f) {
     result.of_face[dual.place(f)] = fragment[f];
-    if (fragments.is_given(f)) result.given_faces.push_back(dual.place(f));
+    if (fragments.given()[f]) result.given_faces.push_back(dual.place(f));
   }
   return result;
 }

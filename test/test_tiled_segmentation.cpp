@@ -456,9 +456,7 @@ TEST(TiledSegmentation, NoiseIsThatOfTheWhole) {
 TEST(TiledSegmentation, TilesMeetByPlacesWithinAToleranceOrById) {
   Cut_mesh mesh = slices(meshes::sphere(3), 2);
   const auto shared = [&](double tolerance) {
-    Tiled_segmentation options;
-    options.tolerance = tolerance;
-    return plan_tiles(surveys_of(mesh.tiles), options).tiles[0].shared_vertices.size();
+    return plan_tiles(surveys_of(mesh.tiles), tolerance).tiles[0].shared_vertices.size();
   };
   const std::size_t all = shared(0);
   EXPECT_GT(all, 10U);

@@ -131,7 +131,7 @@ inline void check_tiles(const Options& options) {
          "of tiles each label is a segment: leave --segments and --seeds out");
   refuse(has_placeholder(files.seeds), "--seeds-file", "seeds are those of all tiles: leave the % out");
   refuse(!files.probabilities.empty(), "--probabilities", reason);
-  refuse(options.is_engineering, "--engineering", reason);
+  refuse(options.has_cad_files(), "--output", "CAD files are made of whole meshes: leave them or --tiled out");
   refuse(options.is_coarse, "--coarse", reason);
   refuse(options.is_paper, "--paper", reason);
   refuse(options.seeding.has_value(), "--seeding", reason);

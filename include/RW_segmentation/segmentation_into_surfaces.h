@@ -48,9 +48,16 @@ namespace internal {
 struct Segments_on_surfaces {
   Merge_tree tree;
   std::vector<std::size_t> fragment_of_face;
+  std::vector<char> is_given;  ///< by face: whether it was left over, and tells nothing about its segment's surface
 };
 
 /// Surfaces, the walk between them, merging.
+/// \param mesh that has its own normals or none
+Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                           const Progress& progress, Segmentation_report& report, Stage_clock& clock);
+
+/// As above, with a tolerance by the noise.
+/// \param noise negative: estimated
 Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise, const Progress& progress,
                                            Segmentation_report& report, Stage_clock& clock);
 

@@ -278,9 +278,10 @@ Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const 
 Tile_survey survey_tile(const Tile& tile);
 
 /// Finds out where tiles meet.
+/// \param tolerance how far apart the same vertex may be in two tiles, in the unit of the coordinates
 /// \throws std::invalid_argument if some tiles have ids and others have not, or the tolerance is negative
 /// Complexity: O(b log b) for b vertices on the borders of all tiles.
-Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const Tiled_segmentation& options = {});
+Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance = 0);
 
 /// Takes what neighbours must see of a tile, and measures its noise.
 /// \param[out] noise what `noise_of_tiles()` needs

@@ -7,92 +7,71 @@
 #include "../Oriented_mesh.h"
 #include "../Output_files.h"
 #include "../Task.h"
-#include "../check_options.h"
 #include "../failure.h"
 #include "../read_input.h"
 #include "../report.h"
-#include "../seeds.h"
-#include "../segment_colors.h"
 #include "../segments.h"
-#include "step_contents.h"
+#include "Surface_steps.h"
+#include "Tile_folder.h"
+#include "Tile_segments.h"
+#include "Tile_step.h"
+#include "Walk_steps.h"
 
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <set>
-#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace segment_mesh {
-
-namespace RW = RW_segmentation;
 
 /// The steps of a segmentation of tiles. What each of them leaves for later ones is in files of a folder, so that it may be
 /// done by any process, on any machine that sees the folder, as soon as the steps before it are done.
 class Tile_steps {
  public:
-  /// A step, in the order in which they are done.
-  struct Step {
-    const char* name;
-    bool is_of_each_tile;
-    void (Tile_steps::*run)(std::size_t tile) const;
-    std::vector<const char*> files;  ///< that it leaves, the last one at its end
-  };
-
   /// \param folder for what the steps leave
   /// \throws CLI::ValidationError, mesh_files::Unreadable_file for seeds
   Tile_steps(const std::vector<Task>& tiles, const Options& options, std::string folder)
-      : tasks_(tiles), options_(options), folder_(std::move(folder)) {
-    take_seeds();
-    if (options.smoothing) method_.smoothing.radius = *options.smoothing;
-    if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
-    if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
-    method_.tolerance = options.tolerance.value_or(0);
+      : tasks_(tiles),
+        options_(options),
+        folder_(std::move(folder), tiles.size()),
+        walk_(folder_, options),
+        surfaces_(folder_, options) {
+    steps_ = {{"survey", true, {"tile", "file_faces", "survey"}, [this](std::size_t tile) { survey(tile); }},
+              {"plan", false, {"plan"}, [this](std::size_t) { plan(); }}};
+    for (Tile_step& step : options.is_engineering ? surfaces_.steps() : walk_.steps())
+      steps_.push_back(std::move(step));
+    steps_.push_back({"labels", true, {"labels"}, [this](std::size_t tile) { labels(tile); }});
+    steps_.push_back({"report", false, {"report"}, [this](std::size_t) { report(); }});
   }
+  Tile_steps(const Tile_steps&) = delete;
+  Tile_steps& operator=(const Tile_steps&) = delete;
 
-  static const std::vector<Step>& all() {
-    static const std::vector<Step> steps = {
-        {"survey", true, &Tile_steps::survey, {"tile", "file_faces", "survey"}},
-        {"plan", false, &Tile_steps::plan, {"plan"}},
-        {"border", true, &Tile_steps::border, {"border", "noise"}},
-        {"noise", false, &Tile_steps::noise, {"noise_of_all"}},
-        {"shape", true, &Tile_steps::shape, {"shape", "outline"}},
-        {"places", true, &Tile_steps::places, {"places"}},
-        {"seeds", false, &Tile_steps::seeds, {"seeds"}},
-        {"clusters", true, &Tile_steps::clusters, {"clusters", "network"}},
-        {"walk", false, &Tile_steps::walk, {"walk"}},
-        {"fragments", true, &Tile_steps::fragments, {"fragments", "regions"}},
-        {"merge", false, &Tile_steps::merge, {"segments"}},
-        {"labels", true, &Tile_steps::labels, {"labels"}},
-        {"report", false, &Tile_steps::report, {"report"}},
-    };
-    return steps;
-  }
+  /// In the order in which they are done.
+  const std::vector<Tile_step>& all() const { return steps_; }
 
   /// \throws CLI::ValidationError if there is no such step
-  static const Step& named(const std::string& name) {
-    for (const Step& step : all())
+  const Tile_step& named(const std::string& name) const {
+    for (const Tile_step& step : steps_)
       if (name == step.name) return step;
-    throw CLI::ValidationError("--tile-step", name + " is no step of a segmentation of tiles");
+    throw CLI::ValidationError("--tile-step", name + " is no step of such a segmentation of tiles");
   }
 
   std::size_t number_of_tiles() const { return tasks_.size(); }
 
   /// Whether a step has left all of its files.
-  bool is_done(const Step& step, std::size_t tile) const {
+  bool is_done(const Tile_step& step, std::size_t tile) const {
     return std::all_of(step.files.begin(), step.files.end(),
                        [&](const char* file) { return std::filesystem::exists(path(step, file, tile)); });
   }
 
   /// Removes what a step has left.
-  void forget(const Step& step, std::size_t tile) const {
+  void forget(const Tile_step& step, std::size_t tile) const {
     for (const char* file : step.files) std::filesystem::remove(path(step, file, tile));
   }
 
@@ -100,28 +79,23 @@ class Tile_steps {
   bool has_changed(std::size_t tile) const {
     namespace fs = std::filesystem;
     std::error_code error;
-    const auto of_survey = fs::last_write_time(path_of_tile("survey", tile), error);
+    const auto of_survey = fs::last_write_time(folder_.path("survey", tile), error);
     if (error) return false;
     const auto of_tile = fs::last_write_time(tasks_[tile].mesh, error);
     return error || of_tile > of_survey;
   }
 
   /// The seeds of the user in words, which the steps from `places` on depend on.
-  std::string seeds_in_words() const {
-    Json seeds = Json::array();
-    for (const auto& [point, label] : seeds_) seeds.push_back({point[0], point[1], point[2], labels_[label]});
-    return seeds.dump();
-  }
+  std::string seeds_in_words() const { return walk_.seeds_in_words(); }
 
   /// What makes all steps what they are, in words: files that other tiles or options have left are of no use.
   std::string parameters() const {
     Json parameters = {{"tiles", Json::array()},
-                       {"smoothing", method_.smoothing.radius},
-                       {"seeds", method_.seeds},
-                       {"tolerance", method_.tolerance},
+                       {"tolerance", tolerance()},
                        {"stitch", options_.repairs.stitch},
                        {"orient", options_.repairs.orient},
                        {"version", version()}};
+    parameters.update(options_.is_engineering ? surfaces_.parameters() : walk_.parameters());
     for (const Task& task : tasks_) parameters["tiles"].push_back(task.mesh);
     return parameters.dump();
   }
@@ -137,74 +111,27 @@ class Tile_steps {
   }
 
   /// What the last step tells.
-  Json read_report() const { return Json::parse(mesh_files::read_content(folder_ + "/report")); }
+  Json read_report() const { return Json::parse(mesh_files::read_content(folder_.path("report"))); }
 
  private:
   using Index = RW::Dual_mesh::Index;
-  using Colors = std::vector<std::array<std::uint8_t, 3>>;
 
-  /// Takes the user's seeds, their labels numbered from 0.
-  void take_seeds() {
-    std::set<std::size_t> labels;
-    const std::vector<Seed_argument> arguments = seed_arguments(options_, options_.files.seeds);
-    for (const Seed_argument& seed : arguments) labels.insert(*seed.label);
-    labels_.assign(labels.begin(), labels.end());
-    for (const Seed_argument& seed : arguments) {
-      const Point* point = std::get_if<Point>(&seed.place);
-      if (!point)
-        throw CLI::ValidationError("--seed",
-                                   seed.text + " is the number of a face, in whichever tile: give a point, X,Y,Z");
-      const auto label = std::lower_bound(labels_.begin(), labels_.end(), *seed.label) - labels_.begin();
-      seeds_.push_back({{point->x(), point->y(), point->z()}, static_cast<Index>(label)});
-    }
-  }
+  double tolerance() const { return options_.tolerance.value_or(0); }
 
-  /// The label of a segment: where seeds are the user's theirs, and those after the largest one for parts out of reach.
   std::size_t label_of(std::size_t segment) const {
-    if (labels_.empty()) return segment;
-    return segment < labels_.size() ? labels_[segment] : labels_.back() + 1 + segment - labels_.size();
+    return options_.is_engineering ? segment : walk_.label_of(segment);
   }
 
-  std::string path(const Step& step, const char* file, std::size_t tile) const {
-    return step.is_of_each_tile ? path_of_tile(file, tile) : folder_ + "/" + file;
-  }
-  std::string path_of_tile(const char* file, std::size_t tile) const {
-    return folder_ + "/" + file + "_" + std::to_string(tile);
-  }
-
-  template <class Value>
-  Value read(const char* file) const {
-    Value value;
-    read_step(folder_ + "/" + file, file, value);
-    return value;
-  }
-  template <class Value>
-  Value read(const char* file, std::size_t tile) const {
-    Value value;
-    read_step(path_of_tile(file, tile), file, value);
-    return value;
-  }
-  template <class Value>
-  std::vector<Value> read_all(const char* file) const {
-    std::vector<Value> values;
-    for (std::size_t t = 0; t < tasks_.size(); ++t) values.push_back(read<Value>(file, t));
-    return values;
-  }
-  template <class Value>
-  std::vector<Value> read_neighbours(const char* file, const RW::Tile_plan& plan, std::size_t tile) const {
-    std::vector<Value> values;
-    for (const auto neighbour : plan.tiles[tile].neighbours) values.push_back(read<Value>(file, neighbour));
-    return values;
+  std::string path(const Tile_step& step, const char* file, std::size_t tile) const {
+    return step.is_of_each_tile ? folder_.path(file, tile) : folder_.path(file);
   }
 
   std::string failure_of(std::size_t tile) const {
     RW::Tile_survey survey;
     std::string failure;
-    read_step(path_of_tile("survey", tile), "survey", survey, failure);
+    folder_.read_of_tile_into(tile, "survey", survey, failure);
     return failure;
   }
-
-  // ---- The steps ----
 
   void survey(std::size_t tile) const {
     RW::Tile arrays;
@@ -227,176 +154,28 @@ class Tile_steps {
     } catch (const mesh_files::Unreadable_file& error) {
       failure = error.what();  // leaves the other tiles their segments
     }
-    write_step(path_of_tile("tile", tile), "tile", arrays);
-    write_step(path_of_tile("file_faces", tile), "file_faces", tile_faces, left_out);
-    write_step(path_of_tile("survey", tile), "survey", RW::survey_tile(arrays), failure);
+    folder_.write_of_tile(tile, "tile", arrays);
+    folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
+    folder_.write_of_tile(tile, "survey", RW::survey_tile(arrays), failure);
   }
 
-  void plan(std::size_t) const {
-    write_step(folder_ + "/plan", "plan", RW::plan_tiles(read_all<RW::Tile_survey>("survey"), method_));
-  }
-
-  void border(std::size_t tile) const {
-    RW::Tile_noise noise;
-    const auto border =
-        RW::border_of_tile(read<RW::Tile>("tile", tile), {tile, read<RW::Tile_plan>("plan")}, noise, method_);
-    write_step(path_of_tile("border", tile), "border", border);
-    write_step(path_of_tile("noise", tile), "noise", noise);
-  }
-
-  void noise(std::size_t) const {
-    const auto noise = RW::noise_of_tiles(read_all<RW::Tile_noise>("noise"));
-    write_step(folder_ + "/noise_of_all", "noise_of_all", noise.turn, noise.smoother_turn);
-  }
-
-  void shape(std::size_t tile) const {
-    const auto plan = read<RW::Tile_plan>("plan");
-    RW::internal::Noise_of_mesh noise;
-    read_step(folder_ + "/noise_of_all", "noise_of_all", noise.turn, noise.smoother_turn);
-    const auto [shape, outline] =
-        RW::shape_of_tile(read<RW::Tile>("tile", tile), {tile, plan},
-                          read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
-    RW::internal::Face_corners corners;
-    std::vector<Eigen::Vector3d> normals;
-    for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
-      for (const auto v : shape.mesh.corners(f)) corners.add(v);
-      corners.end_face();
-      normals.push_back(shape.mesh.shape_normal(f));
-    }
-    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), normals, shape.own_faces, shape.halo,
-               shape.shared_edges);
-    write_step(path_of_tile("outline", tile), "outline", outline);
-  }
-
-  RW::Tile_shape read_shape(const RW::Tile_plan& plan, std::size_t tile) const {
-    RW::Tile_shape shape;
-    RW::internal::Face_corners corners;
-    std::vector<Eigen::Vector3d> points, normals;
-    read_step(path_of_tile("shape", tile), "shape", corners, points, normals, shape.own_faces, shape.halo,
-              shape.shared_edges);
-    shape.mesh =
-        RW::internal::part_of(plan, std::move(corners), std::move(points)).with_shape_normals(std::move(normals));
-    return shape;
-  }
-
-  void places(std::size_t tile) const {
-    std::vector<RW::Tile_place> places;
-    if (!seeds_.empty()) {
-      const auto plan = read<RW::Tile_plan>("plan");
-      places = RW::places_in_tile(read_shape(plan, tile), plan, seeds_);
-    }
-    write_step(path_of_tile("places", tile), "places", places);
-  }
-
-  void seeds(std::size_t) const {
-    const auto plan = read<RW::Tile_plan>("plan");
-    const auto outlines = read_all<RW::Tile_outline>("outline");
-    write_step(folder_ + "/seeds", "seeds",
-               seeds_.empty()
-                   ? RW::seeds_of_tiles(plan, outlines, method_)
-                   : RW::seeds_of_tiles(plan, outlines, seeds_, read_all<std::vector<RW::Tile_place>>("places")));
-  }
-
-  void clusters(std::size_t tile) const {
-    const auto plan = read<RW::Tile_plan>("plan");
-    RW::Tile_network network;
-    const auto clusters =
-        RW::clusters_of_tile(read_shape(plan, tile), {tile, plan}, read<RW::Tile_border>("border", tile),
-                             read<RW::Tile_seeds>("seeds"), network, method_);
-    write_step(path_of_tile("clusters", tile), "clusters", clusters);
-    write_step(path_of_tile("network", tile), "network", network);
-  }
-
-  void walk(std::size_t) const {
-    write_step(folder_ + "/walk", "walk",
-               RW::walk_over_tiles(read<RW::Tile_plan>("plan"), read<RW::Tile_seeds>("seeds"),
-                                   read_all<RW::Tile_network>("network"), method_));
-  }
-
-  void fragments(std::size_t tile) const {
-    const auto plan = read<RW::Tile_plan>("plan");
-    RW::Tile_regions regions;
-    const auto fragments = RW::fragments_of_tile({{tile, plan},
-                                                  read_shape(plan, tile),
-                                                  read<RW::Tile_clusters>("clusters", tile),
-                                                  read_neighbours<RW::Tile_border>("border", plan, tile),
-                                                  read_neighbours<RW::Tile_network>("network", plan, tile),
-                                                  read<RW::Tile_seeds>("seeds"),
-                                                  read<RW::Tile_walk>("walk")},
-                                                 regions);
-    write_step(path_of_tile("fragments", tile), "fragments", fragments);
-    write_step(path_of_tile("regions", tile), "regions", regions);
-  }
-
-  /// The segments of fragments, with the share of the area and the colour of each.
-  void merge(std::size_t) const {
-    const auto regions = read_all<RW::Tile_regions>("regions");
-    const auto walk = read<RW::Tile_walk>("walk");
-    const RW::Merge_tree tree =
-        seeds_.empty() ? RW::merge_tiles(walk, regions) : RW::Merge_tree(walk.number_of_fragments, {});
-    const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : walk.number_of_fragments;
-    const std::vector<std::size_t> segment = tree.segment_of_fragments(options_.segments.value_or(suggested));
-    const std::size_t segments = segment.empty() ? 0 : *std::max_element(segment.begin(), segment.end()) + 1;
-
-    std::vector<double> area(segments, 0.);
-    std::vector<std::set<std::size_t>> neighbours(segments);
-    for (const RW::Tile_regions& tile : regions) {
-      for (std::size_t i = 0; i < tile.fragments.size(); ++i)
-        area[segment[tile.fragments[i]]] += tile.regions[i].size.area;
-    }
-    for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) {
-      const auto [a, b] = boundary.regions;
-      if (segment[a] == segment[b]) continue;
-      neighbours[segment[a]].insert(segment[b]);
-      neighbours[segment[b]].insert(segment[a]);
-    }
-    std::vector<std::vector<std::size_t>> lists;
-    for (const auto& of_segment : neighbours) lists.emplace_back(of_segment.begin(), of_segment.end());
-    std::vector<double> costs;
-    std::vector<std::array<std::uint64_t, 2>> merges;
-    for (const auto& merge : tree.merges()) {
-      merges.push_back({merge.first, merge.second});
-      costs.push_back(merge.cost);
-    }
-    write_step(folder_ + "/segments", "segments", std::vector<std::uint64_t>(segment.begin(), segment.end()), area,
-               Colors(segment_colors(lists)), merges, costs, std::uint64_t(suggested));
-  }
-
-  struct Segments {
-    std::vector<std::uint64_t> of_fragment;
-    std::vector<double> area;  ///< as a part of the whole
-    Colors colors;
-    std::vector<std::array<std::uint64_t, 2>> merges;
-    std::vector<double> costs;  ///< of these
-    std::uint64_t suggested = 0;
-
-    RW::Merge_tree tree() const {
-      std::vector<RW::Merge_tree::Merge> list;
-      for (std::size_t i = 0; i < merges.size(); ++i) list.push_back({merges[i][0], merges[i][1], costs[i]});
-      return {of_fragment.size(), std::move(list)};
-    }
-  };
-  Segments read_segments() const {
-    Segments s;
-    read_step(folder_ + "/segments", "segments", s.of_fragment, s.area, s.colors, s.merges, s.costs, s.suggested);
-    return s;
-  }
+  void plan() const { folder_.write("plan", RW::plan_tiles(folder_.read_all<RW::Tile_survey>("survey"), tolerance())); }
 
   void labels(std::size_t tile) const {
-    const Segments all = read_segments();
+    const auto all = folder_.read<Tile_segments>("segments");
     std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
     if (failure_of(tile).empty()) {
       Output_files files(tasks_[tile].files, options_);
       std::vector<Index> tile_faces;
       std::vector<std::size_t> left_out;
-      read_step(path_of_tile("file_faces", tile), "file_faces", tile_faces, left_out);
-      const auto fragments = read<std::vector<Index>>("fragments", tile);
+      folder_.read_of_tile_into(tile, "file_faces", tile_faces, left_out);
+      const auto fragments = folder_.read<std::vector<Index>>("fragments", tile);
       Segmentation result;
-      for (const Index fragment : fragments) result.label.push_back(label_of(all.of_fragment.at(fragment)));
+      for (const Index fragment : fragments) result.label.push_back(label_of(all.segment(tile, fragment)));
       std::vector<Mesh::Face_index> faces;  // those of the tile: no output that tiles have asks a mesh for more
       for (const Index face : tile_faces) {
         faces.emplace_back(face);
-        ++faces_of_segment[all.of_fragment.at(fragments.at(face))];
+        ++faces_of_segment[all.segment(tile, fragments.at(face))];
       }
       std::vector<Segment> segments;
       for (std::size_t s = 0; s < all.area.size(); ++s)
@@ -405,47 +184,41 @@ class Tile_steps {
       files.write_left_out(left_out);
       files.commit({});
     }
-    write_step(path_of_tile("labels", tile), "labels", faces_of_segment);
+    folder_.write_of_tile(tile, "labels", faces_of_segment);
   }
 
-  void report(std::size_t) const {
-    const Segments all = read_segments();
+  void report() const {
+    const auto all = folder_.read<Tile_segments>("segments");
     std::vector<std::uint64_t> faces(all.area.size(), 0);
-    for (std::size_t t = 0; t < tasks_.size(); ++t) {
-      const auto of_tile = read<std::vector<std::uint64_t>>("labels", t);
+    for (const auto& of_tile : folder_.read_all<std::vector<std::uint64_t>>("labels"))
       for (std::size_t s = 0; s < faces.size(); ++s) faces[s] += of_tile[s];
-    }
-    const auto plan = read<RW::Tile_plan>("plan");
-    const auto walk = read<RW::Tile_walk>("walk");
-    const auto seeds = read<RW::Tile_seeds>("seeds");
     Json report = {{"tiles", tasks_.size()},
-                   {"faces", plan.faces},
-                   {"components", walk.components},
-                   {"clusters", walk.clusters},
-                   {"seeds", seeds.seeds.size()},
+                   {"faces", folder_.read<RW::Tile_plan>("plan").faces},
+                   {"components", all.components},
                    {"fragments", all.of_fragment.size()},
-                   {"turned_sides", seeds.turned_sides},
+                   {"turned_sides", all.turned_sides},
                    {"segments", Json::array()},
                    {"failed", failures()},
                    {"version", version()}};
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
           {{"label", label_of(s)}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
-    if (!labels_.empty())
-      report["unseeded_components"] = faces.size() - labels_.size();
-    else if (!faces.empty())
-      report["levels"] = all.tree().levels(all.suggested);
-    mesh_files::Output_file file(folder_ + "/report");
+    if (!faces.empty() && !options_.has_seeds()) report["levels"] = all.tree().levels(all.suggested);
+    if (options_.is_engineering)
+      surfaces_.complete(report);
+    else
+      walk_.complete(report);
+    mesh_files::Output_file file(folder_.path("report"));
     file.write(report.dump() + "\n");
     file.commit();
   }
 
   const std::vector<Task>& tasks_;
   const Options& options_;
-  std::string folder_;
-  RW::Tiled_segmentation method_;
-  std::vector<RW::Seed_point> seeds_;  ///< of the user
-  std::vector<std::size_t> labels_;    ///< of these, rising
+  Tile_folder folder_;
+  Walk_steps walk_;
+  Surface_steps surfaces_;
+  std::vector<Tile_step> steps_;
 };
 
 }  // namespace segment_mesh

@@ -78,13 +78,13 @@ constexpr const char* seeds_file = "seeds.json";
 void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   bool is_any_new = false;
   for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) {
-    if (steps.has_changed(t)) steps.forget(Tile_steps::named("survey"), t);
-    is_any_new = is_any_new || !steps.is_done(Tile_steps::named("survey"), t);
+    if (steps.has_changed(t)) steps.forget(steps.named("survey"), t);
+    is_any_new = is_any_new || !steps.is_done(steps.named("survey"), t);
   }
   const bool has_other_seeds = folder.holds_other(seeds_file, steps.seeds_in_words());
   const std::string first = is_any_new ? "plan" : has_other_seeds ? "places" : "merge";
   bool is_old = false;
-  for (const Tile_steps::Step& step : Tile_steps::all()) {
+  for (const Tile_step& step : steps.all()) {
     is_old = is_old || step.name == first;
     for (std::size_t t = 0; is_old && t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
       steps.forget(step, t);
@@ -93,9 +93,9 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
 }
 
 /// Does a step in this process.
-Exit_code do_step(const Tile_steps& steps, const Tile_steps::Step& step, std::size_t tile, const Options& options) {
+Exit_code do_step(const Tile_step& step, std::size_t tile, const Options& options) {
   try {
-    (steps.*step.run)(tile);
+    step.run(tile);
     return success;
   } catch (const std::exception&) {
     const Outcome outcome = failure("step " + std::string(step.name), options);
@@ -109,14 +109,14 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
   Progress_bar bar(!options.is_quiet);
   Json costs = Json::object();
   forget_old_work(steps, folder);
-  for (const Tile_steps::Step& step : Tile_steps::all()) {
+  for (const Tile_step& step : steps.all()) {
     std::vector<std::size_t> jobs;
     for (std::size_t t = 0; t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
       if (!steps.is_done(step, t)) jobs.push_back(t);
     bar.start(step.name);
     Job_costs of_step;
     const Exit_code code = pool.run(
-        jobs, [&](std::size_t tile) { return do_step(steps, step, tile, options); },
+        jobs, [&](std::size_t tile) { return do_step(step, tile, options); },
         [&](std::size_t done) { bar.show(static_cast<double>(done) / static_cast<double>(jobs.size())); }, of_step);
     bar.clear();
     if (of_step.again > 0 && !options.is_quiet)
@@ -150,14 +150,14 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
       throw Argument_out_of_range("--tile-folder " + folder.path() +
                                   " holds the work from other seeds: give another folder, or leave --tile-step out");
     folder.keep(seeds_file, steps.seeds_in_words());
-    const Tile_steps::Step& step = Tile_steps::named(options.tile_step);
+    const Tile_step& step = steps.named(options.tile_step);
     if (step.is_of_each_tile != options.tile.has_value())
       throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
                                                                 : "this step is for all tiles: leave it out");
     if (options.tile && *options.tile >= tiles.size())
       throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
                                   counted(tiles.size(), "tile") + ", numbered from 0");
-    return do_step(steps, step, options.tile.value_or(0), options);
+    return do_step(step, options.tile.value_or(0), options);
   }
   const Exit_code code = do_all_steps(steps, folder, options, report);
   if (code != success) return code;

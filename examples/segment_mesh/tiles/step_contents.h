@@ -7,6 +7,7 @@
 
 #include <RW_segmentation/Learned_cost.h>
 #include <RW_segmentation/tiled_segmentation.h>
+#include <RW_segmentation/tiled_surfaces.h>
 
 #include <cstddef>
 #include <type_traits>
@@ -14,7 +15,9 @@
 
 namespace segment_mesh {
 
-// Sums of nothing but doubles.
+// Sums of nothing but doubles, and a number.
+template <>
+struct Is_plain<RW_segmentation::internal::Noise_kind> : std::true_type {};
 template <>
 struct Is_plain<RW_segmentation::Learned_cost::Region> : std::true_type {};
 template <>
@@ -162,6 +165,53 @@ void transfer(Archive& a, Tile_regions& x) {
   a(x.regions);
   a(x.boundaries);
   a(x.sides);
+}
+
+template <class Archive>
+void transfer(Archive& a, Sampled_faces& x) {
+  a(x.points);
+  a(x.corners);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_neighbourhoods& x) {
+  a(x.faces);
+  a(x.middles);
+}
+
+template <class Archive>
+void transfer(Archive& a, Surface_noise& x) {
+  a(x.deviation);
+  a(x.kind);
+}
+
+template <class Archive>
+void transfer(Archive& a, Edge_sums& x) {
+  a(x.length);
+  a(x.difference);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_surfaces::Side_sums& x) {
+  a(x.edge);
+  a(x.is_smooth);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_surfaces& x) {
+  a(x.areas);
+  a(x.samples);
+  a(x.region_of);
+  a(x.boundaries);
+  a(x.sides);
+  a(x.turned_sides);
+}
+
+template <class Archive>
+void transfer(Archive& a, Merge_tree::Merge& x) {
+  a(x.first);
+  a(x.second);
+  a(x.cost);
 }
 
 namespace internal {

@@ -21,7 +21,8 @@ RW_SEGMENTATION_INLINE void require_noise(double noise) {
   if (!std::isfinite(noise)) throw argument_error("noise", noise, "finite");
 }
 
-RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {
+RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise,
+                                                           const std::vector<Dual_mesh::Index>& trials) {
   require_noise(noise);
   // Where noise is large beside the edges, it hides in neighbourhoods that end at sharp ones: each estimate tells the next
   // how sharp an edge may be. Noise of a third of the edges takes three of them; one alone finds .4 of it.
@@ -30,16 +31,20 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   const bool is_given = noise >= 0;
   Surface_tolerance tolerance(mesh, is_given ? noise : 0);
   if (is_given && !tolerance.is_noisy()) return tolerance;
-  Noise_estimate strict(mesh, Surface_tolerance(mesh, 0));
+  Noise_estimate strict(mesh, Surface_tolerance(mesh, 0), trials);
   if (!is_given) tolerance = Surface_tolerance(mesh, strict.standard_deviation());
   for (int i = 1; !is_given && tolerance.is_noisy() && i < most_estimates; ++i) {
-    const double deviation = Noise_estimate(mesh, tolerance).standard_deviation();
+    const double deviation = Noise_estimate(mesh, tolerance, trials).standard_deviation();
     if (deviation <= least_growth * tolerance.noise) break;
     tolerance = Surface_tolerance(mesh, deviation);
   }
   // What reaches across edges has deviations in common: on CAD solids (`_5k`) under noise of .1 %, overlap .894 where the
   // last estimate tells the kind, .903 where the first does.
   return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, strict.kind()) : tolerance;
+}
+
+RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {
+  return surface_tolerance(mesh, noise, noise_trials(mesh.number_of_faces(), mesh.number_of_faces()));
 }
 
 RW_SEGMENTATION_INLINE std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {

@@ -25,12 +25,10 @@ inline std::vector<double> conductances_beside_surfaces(const Dual_mesh& mesh) {
   return conductances(mesh, Dihedral_difference_policy{every_crease, Dihedral_measure::angle}(mesh), sigma, cap);
 }
 
-RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
+RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& shape,
+                                                                  const Surface_tolerance& tolerance,
                                                                   const Progress& progress, Segmentation_report& report,
                                                                   Stage_clock& clock) {
-  const Dual_mesh shape = with_stored_normals(mesh);
-  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
-  clock.note("noise");
   const Analytic_regions regions = find_analytic_regions(shape, tolerance, progress.part(0, 0.8));
   clock.note("surfaces");
 
@@ -38,6 +36,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   Region_fragments fragments(shape, tolerance, conductance);
   Segments_on_surfaces result;
   result.fragment_of_face = fragments.fragments(regions.region_of_face, progress.part(0.8, 0.85));
+  result.is_given = fragments.given();
   clock.note("walk");
 
   report.components = Components(shape.graph(), [&](Dual_mesh::Index e) { return !shape.is_wall(e); }).count;
@@ -47,7 +46,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   report.degenerate_faces = shape.number_of_degenerate_faces();
   const Analytic_surface_cost cost(shape, tolerance);
   auto region_of = [&](Dual_mesh::Index f) {
-    return fragments.is_given(f) ? Analytic_surface_cost::Region() : cost.region(shape, f);
+    return result.is_given[f] ? Analytic_surface_cost::Region() : cost.region(shape, f);
   };
   result.tree = Region_merging<Analytic_surface_cost>(
                     join_faces(result.fragment_of_face, report.fragments, cost, region_of),
@@ -56,6 +55,15 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   clock.note("merging");
   progress(1);
   return result;
+}
+
+RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
+                                                                  const Progress& progress, Segmentation_report& report,
+                                                                  Stage_clock& clock) {
+  const Dual_mesh shape = with_stored_normals(mesh);
+  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
+  clock.note("noise");
+  return segment_into_surfaces(shape, tolerance, progress, report, clock);
 }
 
 }  // namespace RW_segmentation::internal

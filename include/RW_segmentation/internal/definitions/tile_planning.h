@@ -192,10 +192,9 @@ inline void share_vertices(const std::vector<Tile_survey>& surveys, Border_match
 
 }  // namespace internal
 
-RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys,
-                                            const Tiled_segmentation& options) {
-  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-    throw internal::argument_error("tolerance", options.tolerance, "a finite number >= 0");
+RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance) {
+  if (!(tolerance >= 0) || !std::isfinite(tolerance))
+    throw internal::argument_error("tolerance", tolerance, "a finite number >= 0");
   Tile_plan plan;
   plan.tiles.resize(surveys.size());
   std::vector<Eigen::Vector3d> corners_of_boxes;
@@ -217,8 +216,8 @@ RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surv
   internal::Border_matching matching(surveys);
   if (with_ids > 0)
     matching.match_ids();
-  else if (options.tolerance > 0)
-    matching.match_near(options.tolerance);
+  else if (tolerance > 0)
+    matching.match_near(tolerance);
   else
     matching.match_places();
   internal::share_vertices(surveys, matching, plan.tiles);

@@ -8,10 +8,10 @@
 #include <RW_segmentation/internal/definitions/tile_planning.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/definitions/tile_walk.h>
+#include <RW_segmentation/internal/tiles/steps_in_memory.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,17 +43,9 @@ template <class Place_seeds>
 Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Tiled_segmentation& options,
                                        const Place_seeds& place_seeds, const Progress& progress) {
   const std::size_t count = tiles.size();
-  std::vector<Tile_survey> surveys;
-  for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
-  const Tile_plan plan = plan_tiles(surveys, options);
-  const auto of_neighbours = [&](const auto& of_tiles, std::size_t t) {
-    std::decay_t<decltype(of_tiles)> result;
-    for (const auto n : plan.tiles[t].neighbours) result.push_back(of_tiles[n]);
-    return result;
-  };
+  const Tile_plan plan = plan_in_memory(tiles, options.tolerance);
   const auto part = [&](double begin, double end, std::size_t t) {
-    const double share = (end - begin) / static_cast<double>(count);
-    return progress.part(begin + static_cast<double>(t) * share, begin + static_cast<double>(t + 1) * share);
+    return progress_of_tile(progress, begin, end, t, count);
   };
 
   std::vector<Tile_border> borders;
@@ -65,7 +57,7 @@ Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Til
   std::vector<Tile_outline> outlines(count);
   for (std::size_t t = 0; t < count; ++t) {
     Shaped_tile shaped =
-        shape_of_tile(tiles[t], {t, plan}, of_neighbours(borders, t), noise, options, part(0.3, 0.6, t));
+        shape_of_tile(tiles[t], {t, plan}, of_neighbours(plan, borders, t), noise, options, part(0.3, 0.6, t));
     shapes.push_back(std::move(shaped.shape));
     outlines[t] = std::move(shaped.outline);
   }
@@ -83,8 +75,8 @@ Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Til
     walked.fragment_of_face.push_back(fragments_of_tile({{t, plan},
                                                          shapes[t],
                                                          clusters[t],
-                                                         of_neighbours(borders, t),
-                                                         of_neighbours(networks, t),
+                                                         of_neighbours(plan, borders, t),
+                                                         of_neighbours(plan, networks, t),
                                                          walked.seeds,
                                                          walked.walk},
                                                         walked.regions[t], part(0.85, 0.95, t)));

@@ -21,6 +21,17 @@
 
 namespace RW_segmentation::internal {
 
+/// Faces about which noise is measured: some in the order of the faces, evenly.
+/// \param faces of a mesh or of a part of it
+/// \param faces_of_whole that part included; 400 to 800 of them are taken
+inline std::vector<Dual_mesh::Index> noise_trials(std::size_t faces, std::size_t faces_of_whole) {
+  constexpr std::size_t trials = 400;
+  const std::size_t step = std::max<std::size_t>(1, faces_of_whole / trials);
+  std::vector<Dual_mesh::Index> chosen;
+  for (std::size_t f = 0; f < faces; f += step) chosen.push_back(static_cast<Dual_mesh::Index>(f));
+  return chosen;
+}
+
 /// Estimates how far vertices are off their surfaces from what neighbourhoods of faces leave unexplained. Without noise
 /// some small ones lie on a surface exactly, if they avoid edges, even on a coarse mesh. Under noise none does, and
 /// larger ones vary less. Also tells what kind of noise it is.
@@ -28,10 +39,14 @@ class Noise_estimate {
  public:
   using Index = Dual_mesh::Index;
 
+  /// Neighbourhoods have at most so many vertices.
+  static constexpr std::size_t most_vertices = 500;
+
   /// \param expected what neighbourhoods are to reckon with: they end at edges that it does not explain
-  Noise_estimate(const Dual_mesh& mesh, const Surface_tolerance& expected)
+  /// \param trials the faces that they are about
+  Noise_estimate(const Dual_mesh& mesh, const Surface_tolerance& expected, std::vector<Index> trials)
       : mesh_(mesh),
-        number_of_faces_(mesh.number_of_faces()),
+        trial_faces_(std::move(trials)),
         expects_noise_(expected.is_noisy()),
         patches_(mesh, edge_angles(mesh), [&](Index e) {
           constexpr double sharp = radians(60);  // what a little noise hardly makes of flat edges
@@ -85,7 +100,7 @@ class Noise_estimate {
         const auto surface = closest_surface_of(neighbourhood_of(f));
         measured += surface.has_value();
         exact += surface && correction * surface->residual <= Surface_tolerance::cad_exactness;
-        return static_cast<double>(exact) <= part * static_cast<double>(number_of_trials());
+        return static_cast<double>(exact) <= part * static_cast<double>(trial_faces_.size());
       });
       return measured == 0 || static_cast<double>(exact) > part * static_cast<double>(measured);
     };
@@ -141,7 +156,6 @@ class Noise_estimate {
 
   /// The deviation of neighbourhoods so wide that wider ones leave no more unexplained; 0 if they always do.
   double deviation_that_grows_no_more() {
-    constexpr std::size_t most_vertices = 500;
     constexpr double first_growth = 1.45;  // that twice the vertices may bring; 1.4 for noise smoothed by two steps
     constexpr double no_growth = 1.15;     // what it is for independent noise
     constexpr double correction = 1.15;    // from a low quantile of the best of five fits
@@ -172,16 +186,11 @@ class Noise_estimate {
     return trials;
   }
 
-  /// Calls a function with some faces, evenly in their order, as long as it returns true.
+  /// Calls a function with the faces of the trials, as long as it returns true.
   template <class Function>
   void for_each_trial(const Function& function) {
-    for (std::size_t f = 0; f < number_of_faces_; f += trial_step())
-      if (!function(static_cast<Index>(f))) return;
-  }
-  std::size_t number_of_trials() const { return (number_of_faces_ + trial_step() - 1) / trial_step(); }
-  std::size_t trial_step() const {
-    constexpr std::size_t trials = 400;  // up to twice as many
-    return std::max<std::size_t>(1, number_of_faces_ / trials);
+    for (const Index f : trial_faces_)
+      if (!function(f)) return;
   }
 
   /// The surface that is closest to the vertices of a patch, of the first type that fits, as a rule the plane, and the others
@@ -232,7 +241,7 @@ class Noise_estimate {
   }
 
   const Dual_mesh& mesh_;
-  std::size_t number_of_faces_;
+  std::vector<Index> trial_faces_;
   bool expects_noise_;
   Face_patches patches_;
   std::map<std::size_t, std::vector<Trial>> trials_;  // by vertices of the neighbourhoods

@@ -60,18 +60,13 @@ class Region_fragments {
     return renumbered();
   }
 
-  /// Whether a face was given to its fragment by the walk: it tells nothing about the fragment's surface.
-  bool is_given(std::size_t face) const { return is_given_[face]; }
+  /// By face: whether the walk gave it to its fragment. It tells nothing about the fragment's surface.
+  const std::vector<char>& given() const { return is_given_; }
 
  private:
   static constexpr std::size_t none = Analytic_regions::none;
 
-  bool is_smooth(Index edge) const {
-    // A little more than kernels let an arc turn along an edge. At 18 degrees, a tenth more segments (`_5k`); at 32, Rand
-    // error .0020 in place of .0013 (`_30k`).
-    constexpr double smooth_angle = radians(25);
-    return angles_[edge] < std::max(smooth_angle, tolerance_.angle_of_noise(mesh_.graph().faces_of(edge)));
-  }
+  bool is_smooth(Index edge) const { return angles_[edge] < tolerance_.smooth_angle(mesh_.graph().faces_of(edge)); }
 
   /// Gives the next fragment to all faces that a predicate of two faces and their edge leads to.
   template <class Predicate>

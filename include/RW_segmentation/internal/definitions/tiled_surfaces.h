@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILED_SURFACES_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILED_SURFACES_H
+
+#include <RW_segmentation/Analytic_surface_cost.h>
+#include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/definitions/segment_surfaces.h>
+#include <RW_segmentation/internal/definitions/tile_shape.h>
+#include <RW_segmentation/internal/surfaces/Noise_estimate.h>
+#include <RW_segmentation/internal/surfaces/Number_sample.h>
+#include <RW_segmentation/internal/tiles/Joined_nodes.h>
+#include <RW_segmentation/internal/tiles/steps_in_memory.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
+#include <RW_segmentation/tiled_surfaces.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation {
+
+namespace internal {
+
+// ---- Borders and noise ----
+
+/// Copies faces of a mesh, each vertex once.
+class Face_sampling {
+ public:
+  using Index = Dual_mesh::Index;
+
+  /// Keeps references to both.
+  Face_sampling(const Dual_mesh& mesh, Sampled_faces& samples) : mesh_(mesh), samples_(samples) {}
+
+  /// \returns the number of the copy
+  Index add(Index face) {
+    for (const Index v : mesh_.corners(face)) {
+      const auto [place, is_new] = number_.emplace(v, static_cast<Index>(samples_.points.size()));
+      if (is_new) samples_.points.push_back(mesh_.point(v));
+      samples_.corners.add(place->second);
+    }
+    samples_.corners.end_face();
+    return static_cast<Index>(samples_.corners.number_of_faces() - 1);
+  }
+
+ private:
+  const Dual_mesh& mesh_;
+  Sampled_faces& samples_;
+  std::unordered_map<Index, Index> number_;  // of each vertex among the points
+};
+
+/// The samples of all tiles as one mesh: each lies apart from those of other tiles.
+/// \param samples_of a function from what a tile gives to its samples
+template <class OfTile, class SamplesOf>
+Dual_mesh mesh_of_samples(const Tile_plan& plan, const std::vector<OfTile>& tiles, const SamplesOf& samples_of) {
+  Face_corners corners;
+  std::vector<Eigen::Vector3d> points;
+  for (const OfTile& tile : tiles) {
+    const Sampled_faces& samples = samples_of(tile);
+    for (Dual_mesh::Index f = 0; f < samples.corners.number_of_faces(); ++f) {
+      for (const auto v : samples.corners[f]) corners.add(static_cast<Dual_mesh::Index>(points.size() + v));
+      corners.end_face();
+    }
+    points.insert(points.end(), samples.points.begin(), samples.points.end());
+    check_number(points.size(), "samples of surfaces");
+  }
+  return part_of(plan, std::move(corners), std::move(points));
+}
+
+/// Takes the faces that an estimate of the noise looks at.
+inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, std::size_t faces_of_whole) {
+  using Index = Dual_mesh::Index;
+  // Neighbourhoods end at sharp edges, but not here: they reach farther where they are narrow.
+  constexpr std::size_t vertices = 2 * Noise_estimate::most_vertices;
+  Tile_neighbourhoods result;
+  Face_sampling sampling(mesh, result.faces);
+  Face_patches patches(mesh);
+  std::unordered_map<Index, Index> number;
+  const auto copy = [&](Index f) {
+    const auto [place, is_new] = number.emplace(f, Index(0));
+    if (is_new) place->second = sampling.add(f);
+    return place->second;
+  };
+  for (const Index f : noise_trials(mesh.number_of_faces(), faces_of_whole)) {
+    for (const Index g : patches.neighbourhood(f, vertices).faces) copy(g);
+    result.middles.push_back(copy(f));
+  }
+  return result;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, const Tile_in_plan& place,
+                                                            Tile_neighbourhoods& neighbourhoods,
+                                                            const Tiled_surfaces& options, const Progress& progress) {
+  if (!(options.halo >= 0) || !std::isfinite(options.halo))
+    throw internal::argument_error("halo", options.halo, "a finite number >= 0");
+  const auto& [number, plan] = place;
+  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
+  neighbourhoods = internal::neighbourhoods_in(mesh, plan.faces);
+  Tile_border border;
+  border.width = options.halo * mesh.mean_edge_length();
+  internal::take_border(mesh, plan.tiles[number].shared_vertices, border);
+  progress(1);
+  return border;
+}
+
+RW_SEGMENTATION_INLINE Surface_noise noise_of_tiles(const Tile_plan& plan,
+                                                    const std::vector<Tile_neighbourhoods>& tiles,
+                                                    const Tiled_surfaces& options) {
+  std::vector<Dual_mesh::Index> middles;
+  std::size_t faces_before = 0;
+  for (const Tile_neighbourhoods& tile : tiles) {
+    for (const auto f : tile.middles) middles.push_back(static_cast<Dual_mesh::Index>(faces_before + f));
+    faces_before += tile.faces.corners.number_of_faces();
+  }
+  const Dual_mesh mesh = internal::mesh_of_samples(
+      plan, tiles, [](const Tile_neighbourhoods& tile) -> const Sampled_faces& { return tile.faces; });
+  const internal::Surface_tolerance tolerance = internal::surface_tolerance(mesh, options.noise, middles);
+  return {tolerance.noise, tolerance.noise_kind};
+}
+
+namespace internal {
+
+// ---- The surfaces of a tile ----
+
+/// The regions of a tile and its halo, those of the tile numbered from 0.
+struct Regions_of_part {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  std::vector<std::size_t> region_of_face;  ///< `none` where a region has no face in the tile
+  std::vector<char> tells;                  ///< by face: whether it tells about its region's surface
+  std::size_t count = 0;
+};
+
+inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_tolerance& tolerance,
+                                       const Progress& progress) {
+  Segmentation_report report;
+  Stage_clock clock(report.stages);
+  const Segments_on_surfaces found = segment_into_surfaces(shape.mesh, tolerance, progress, report, clock);
+  const std::vector<std::size_t> segment =
+      found.tree.segment_of_fragments(Cost_threshold_stop(Surface_segmentation().stop_cost)(found.tree));
+  Regions_of_part regions;
+  std::vector<std::size_t> number(segment.size(), Regions_of_part::none);
+  for (std::size_t f = 0; f < found.fragment_of_face.size(); ++f) {
+    std::size_t& region = number[segment[found.fragment_of_face[f]]];
+    if (region == Regions_of_part::none && f < shape.own_faces) region = regions.count++;
+    regions.region_of_face.push_back(region);
+    regions.tells.push_back(!found.is_given[f]);
+  }
+  return regions;
+}
+
+/// The most samples of a region in one tile.
+constexpr std::size_t samples_of_region = 200;
+
+/// Takes samples of the regions, from the halo as well.
+inline void take_samples(const Dual_mesh& mesh, const Regions_of_part& regions, Tile_surfaces& surfaces) {
+  using Index = Dual_mesh::Index;
+  std::vector<Number_sample> samples(regions.count);
+  for (Index f = 0; f < mesh.number_of_faces(); ++f)
+    if (regions.region_of_face[f] != Regions_of_part::none && regions.tells[f])
+      samples[regions.region_of_face[f]].insert(f, samples_of_region);
+  Face_sampling sampling(mesh, surfaces.samples);
+  for (std::size_t region = 0; region < samples.size(); ++region)
+    samples[region].for_each([&](Index f) {
+      sampling.add(f);
+      surfaces.region_of.push_back(static_cast<Index>(region));
+    });
+}
+
+/// Takes the boundaries between the regions, and the sides of the tile.
+inline void take_boundaries(const Tile_shape& shape, std::size_t number, const Regions_of_part& regions,
+                            const Surface_tolerance& tolerance, Tile_surfaces& surfaces) {
+  using Index = Dual_mesh::Index;
+  const Dual_mesh& mesh = shape.mesh;
+  const std::vector<double> angles = edge_angles(mesh), sharpness = edge_sharpness(mesh, tolerance);
+  const auto sums_of = [&](Index e) -> Edge_sums {
+    const double length = mesh.edge_length(e) / mesh.length_unit();
+    return {length, length * sharpness[e]};
+  };
+  std::map<std::array<Index, 2>, Edge_sums> boundaries;
+  for (Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto [f, g] = mesh.graph().faces_of(e);
+    if (f >= shape.own_faces || g >= shape.own_faces || mesh.is_wall(e)) continue;
+    const auto [a, b] = std::minmax(regions.region_of_face[f], regions.region_of_face[g]);
+    if (a != b) boundaries[{static_cast<Index>(a), static_cast<Index>(b)}] += sums_of(e);
+  }
+  for (const auto& [pair, sums] : boundaries) surfaces.boundaries.push_back({pair, sums});
+  for (const auto& shared : shape.shared_edges) {
+    const Index e = shared.edge;
+    const bool is_owner = number < shared.neighbour;
+    const bool is_smooth = angles[e] < tolerance.smooth_angle(mesh.graph().faces_of(e));
+    surfaces.sides.push_back({shared.side, static_cast<Index>(regions.region_of_face[own_face(shape, shared)]), 0,
+                              is_owner ? Tile_surfaces::Side_sums{sums_of(e), is_smooth} : Tile_surfaces::Side_sums(),
+                              is_owner});
+  }
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::surfaces_of_tile(
+    const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours, const Surface_noise& noise,
+    Tile_surfaces& surfaces, const Progress& progress) {
+  const auto& [number, plan] = place;
+  surfaces = {};
+  const Tile_shape shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(surfaces.turned_sides);
+  if (shape.own_faces == 0) return {};
+  const internal::Surface_tolerance tolerance(shape.mesh, noise.deviation, noise.kind);
+  const internal::Regions_of_part regions = internal::regions_of_part(shape, tolerance, progress);
+  internal::take_samples(shape.mesh, regions, surfaces);
+  internal::take_boundaries(shape, number, regions, tolerance, surfaces);
+  surfaces.areas.resize(regions.count);
+  std::vector<Dual_mesh::Index> region_of_face;
+  for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f) {
+    region_of_face.push_back(static_cast<Dual_mesh::Index>(regions.region_of_face[f]));
+    if (plan.total_area > 0) surfaces.areas[region_of_face.back()] += shape.mesh.area(f) / plan.total_area;
+  }
+  return region_of_face;
+}
+
+namespace internal {
+
+// ---- All tiles ----
+
+/// The samples of all tiles and the region of each.
+struct Sampled_surfaces {
+  Dual_mesh mesh;
+  Surface_tolerance tolerance;
+  std::vector<std::size_t> region_of_face;
+
+  Sampled_surfaces(const Tile_plan& plan, const Surface_noise& noise, const std::vector<Tile_surfaces>& tiles,
+                   const Joined_nodes& nodes)
+      : mesh(mesh_of_samples(plan, tiles,
+                             [](const Tile_surfaces& tile) -> const Sampled_faces& { return tile.samples; })),
+        tolerance(mesh, noise.deviation, noise.kind) {
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+      for (const auto region : tiles[t].region_of) region_of_face.push_back(nodes(t, region));
+  }
+};
+
+inline Joined_nodes regions_of_tiles(const std::vector<Tile_surfaces>& tiles) {
+  return Joined_nodes(tiles, [](const Tile_surfaces& tile) { return tile.areas.size(); });
+}
+
+/// The fragment of each region: free forms that meet smoothly at a side between two tiles are one.
+inline std::vector<std::size_t> fragments_of_regions(const std::vector<Tile_surfaces>& tiles, const Joined_nodes& nodes,
+                                                     const Analytic_surface_cost& cost,
+                                                     const std::vector<Analytic_surface_cost::Region>& regions,
+                                                     std::size_t& count) {
+  using Index = Dual_mesh::Index;
+  std::vector<int> rank(nodes.count());
+  std::vector<Index> parent(nodes.count());
+  std::iota(parent.begin(), parent.end(), Index(0));
+  boost::disjoint_sets<int*, Index*> sets(rank.data(), parent.data());
+  const auto is_free_form = [&](Index region) {
+    return cost.surface_of(regions[region]).type == Surface_type::free_form;
+  };
+  nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
+    if (owner.value.is_smooth && is_free_form(a) && is_free_form(b)) sets.union_set(a, b);
+  });
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> number(nodes.count(), none), fragment;
+  count = 0;
+  for (Index region = 0; region < nodes.count(); ++region) {
+    std::size_t& of_set = number[sets.find_set(region)];
+    if (of_set == none) of_set = count++;
+    fragment.push_back(of_set);
+  }
+  return fragment;
+}
+
+/// The boundaries between the regions of all tiles, in no order.
+inline std::vector<Boundary_of_regions<Edge_sums>> boundaries_of_regions(const std::vector<Tile_surfaces>& tiles,
+                                                                         const Joined_nodes& nodes) {
+  using Index = Dual_mesh::Index;
+  std::vector<Boundary_of_regions<Edge_sums>> boundaries;
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    for (const auto& [regions, sums] : tiles[t].boundaries)
+      boundaries.push_back({{nodes(t, regions[0]), nodes(t, regions[1])}, sums});
+  nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
+    boundaries.push_back({{std::min(a, b), std::max(a, b)}, owner.value.edge});
+  });
+  return boundaries;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Merged_surfaces merge_tiles(const Tile_plan& plan, const Surface_noise& noise,
+                                                   const std::vector<Tile_surfaces>& tiles, const Progress& progress) {
+  const internal::Joined_nodes nodes = internal::regions_of_tiles(tiles);
+  const internal::Sampled_surfaces samples(plan, noise, tiles, nodes);
+  const Analytic_surface_cost cost(samples.mesh, samples.tolerance, internal::samples_of_region);
+  const std::vector<Analytic_surface_cost::Region> regions = internal::join_faces(
+      samples.region_of_face, nodes.count(), cost, [&](Dual_mesh::Index f) { return cost.region(samples.mesh, f); });
+  std::size_t count = 0;
+  const std::vector<std::size_t> fragment = internal::fragments_of_regions(tiles, nodes, cost, regions, count);
+  Merged_surfaces merged;
+  std::vector<Analytic_surface_cost::Region> of_fragment(count);
+  for (std::size_t r = 0; r < regions.size(); ++r) cost.join(of_fragment[fragment[r]], regions[r]);
+  auto boundaries = internal::join_boundaries(internal::boundaries_of_regions(tiles, nodes), fragment);
+  for (const auto& boundary : boundaries) merged.neighbours.push_back(boundary.regions);
+  merged.tree = internal::Region_merging<Analytic_surface_cost>(std::move(of_fragment), std::move(boundaries), cost)
+                    .run(progress);
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    merged.fragments.emplace_back();
+    for (Dual_mesh::Index r = 0; r < tiles[t].areas.size(); ++r)
+      merged.fragments[t].push_back(static_cast<Dual_mesh::Index>(fragment[nodes(t, r)]));
+    merged.turned_sides += tiles[t].turned_sides;
+  }
+  progress(1);
+  return merged;
+}
+
+RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_tiles(
+    const Tile_plan& plan, const Surface_noise& noise, const std::vector<Tile_surfaces>& tiles,
+    const Merged_surfaces& merged, const std::vector<std::size_t>& segment_of_fragment,
+    std::size_t number_of_segments) {
+  const internal::Joined_nodes nodes = internal::regions_of_tiles(tiles);
+  const internal::Sampled_surfaces samples(plan, noise, tiles, nodes);
+  std::vector<std::size_t> segment_of_face;
+  for (const std::size_t region : samples.region_of_face) {
+    const auto [tile, of_tile] = nodes.tile_and_place(static_cast<Dual_mesh::Index>(region));
+    segment_of_face.push_back(segment_of_fragment.at(merged.fragments[tile][of_tile]));
+  }
+  std::vector<Analytic_surface> surfaces =
+      internal::Surfaces_of_segments(samples.mesh, segment_of_face, number_of_segments, samples.tolerance).surfaces();
+  for (Analytic_surface& surface : surfaces) surface = internal::in_mesh_coordinates(surface, samples.mesh);
+  return surfaces;
+}
+
+// ---- All steps ----
+
+RW_SEGMENTATION_INLINE std::vector<Analytic_surface> Tiled_surface_hierarchy::surfaces(
+    std::size_t number_of_segments) const {
+  return surfaces_of_tiles(plan, noise, regions, merged, tree.segment_of_fragments(number_of_segments),
+                           number_of_segments);
+}
+
+RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
+                                                                            const Tiled_surfaces& options,
+                                                                            const Progress& progress) {
+  const std::size_t count = tiles.size();
+  const auto part = [&](double begin, double end, std::size_t t) {
+    return progress_of_tile(progress, begin, end, t, count);
+  };
+  Tiled_surface_hierarchy result;
+  result.plan = plan_in_memory(tiles, options.tolerance);
+  std::vector<Tile_border> borders;
+  std::vector<Tile_neighbourhoods> neighbourhoods(count);
+  for (std::size_t t = 0; t < count; ++t)
+    borders.push_back(border_of_tile(tiles[t], {t, result.plan}, neighbourhoods[t], options, part(0, 0.1, t)));
+  result.noise = noise_of_tiles(result.plan, neighbourhoods, options);
+  result.regions.resize(count);
+  for (std::size_t t = 0; t < count; ++t)
+    result.fragment_of_face.push_back(surfaces_of_tile(tiles[t], {t, result.plan},
+                                                       of_neighbours(result.plan, borders, t), result.noise,
+                                                       result.regions[t], part(0.1, 0.95, t)));
+  result.merged = merge_tiles(result.plan, result.noise, result.regions, progress.part(0.95, 1));
+  for (std::size_t t = 0; t < count; ++t)
+    for (Dual_mesh::Index& region : result.fragment_of_face[t]) region = result.merged.fragments[t][region];
+  result.tree = result.merged.tree;
+  result.components = result.tree.number_of_components();
+  result.turned_sides = result.merged.turned_sides;
+  progress(1);
+  return result;
+}
+
+}  // namespace RW_segmentation
+
+#endif
