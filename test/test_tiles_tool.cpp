@@ -10,6 +10,8 @@
 
 #include <signal.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -45,16 +47,23 @@ class Tiles : public Segment_mesh_tool {
     write_tiles(meshes::two_spheres_with_neck(2.6, 0.35, 40));
   }
 
+  static Eigen::Vector3d middle_of(const meshes::Shape& shape, std::size_t face) {
+    const auto& corners = shape.faces[face];
+    return (shape.points[corners[0]] + shape.points[corners[1]] + shape.points[corners[2]]) / 3;
+  }
+
   void write_tiles(const meshes::Shape& shape) {
     for (std::size_t t = 0; t < 4; ++t) {
-      std::map<std::size_t, std::size_t> number;
+      auto& number = vertex_number_[t];
+      number.clear();
+      faces_of_tile_[t].clear();
       std::ostringstream points, faces;
       points.precision(17);
-      std::size_t count = 0;
-      for (const auto& face : shape.faces) {
-        const Eigen::Vector3d middle = (shape.points[face[0]] + shape.points[face[1]] + shape.points[face[2]]) / 3;
+      for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+        const auto& face = shape.faces[f];
+        const Eigen::Vector3d middle = middle_of(shape, f);
         if (std::size_t(middle[0] > 0.1) + 2 * std::size_t(middle[2] > 0.9) != t) continue;
-        ++count;
+        faces_of_tile_[t].push_back(f);
         faces << face.size();
         for (const auto v : face) {
           const auto [place, is_new] = number.emplace(v, number.size());
@@ -63,9 +72,9 @@ class Tiles : public Segment_mesh_tool {
         }
         faces << '\n';
       }
-      faces_[t] = count;
+      faces_[t] = faces_of_tile_[t].size();
       std::ostringstream off;
-      off << "OFF\n" << number.size() << ' ' << count << " 0\n" << points.str() << faces.str();
+      off << "OFF\n" << number.size() << ' ' << faces_[t] << " 0\n" << points.str() << faces.str();
       write(name(t), off.str());
     }
   }
@@ -90,6 +99,8 @@ class Tiles : public Segment_mesh_tool {
   }
 
   std::size_t faces_[4] = {};
+  std::vector<std::size_t> faces_of_tile_[4];                 // of the shape
+  std::map<std::size_t, std::size_t> vertex_number_[4] = {};  // in the file, by vertex of the shape
 };
 
 TEST_F(Tiles, HaveOneLabelWhereverASegmentGoesOn) {
@@ -270,6 +281,127 @@ TEST_F(Tiles, GiveFacesThatAreLeftOutTheLabelsOfTheClosestOnes) {
   EXPECT_EQ(content_of(path("tile_0.txt")), std::to_string(faces) + '\n');
 }
 
+// ---- Walls ----
+
+/// Four tiles of a dumbbell with walls round a piece of one of its balls, across a border between tiles.
+class Walled_tiles : public Tiles {
+ protected:
+  using Edge = std::array<std::size_t, 2>;
+
+  void SetUp() override {
+    Tiles::SetUp();
+    std::map<Edge, std::vector<std::size_t>> faces;
+    for (std::size_t f = 0; f < shape_.faces.size(); ++f) {
+      std::size_t from = shape_.faces[f].back();
+      for (const std::size_t to : shape_.faces[f]) {
+        faces[{std::min(from, to), std::max(from, to)}].push_back(f);
+        from = to;
+      }
+    }
+    for (const auto& [edge, beside] : faces)
+      if (is_on_cap(beside[0]) != is_on_cap(beside[1])) walls_.push_back(edge);
+    write_walls();
+  }
+
+  bool is_on_cap(std::size_t face) const {
+    return (middle_of(shape_, face) - Eigen::Vector3d(0.3, 0.3, 2.1)).norm() < 0.6;
+  }
+
+  bool has(std::size_t tile, const Edge& edge) const {
+    return vertex_number_[tile].count(edge[0]) > 0 && vertex_number_[tile].count(edge[1]) > 0;
+  }
+
+  /// Each wall in the file of one tile.
+  void write_walls() const {
+    for (std::size_t t = 0; t < 4; ++t) {
+      std::ostringstream lines;
+      for (const Edge& edge : walls_)
+        if (has(t, edge) && (t == 0 || !has(t - 1, edge)))
+          lines << vertex_number_[t].at(edge[0]) << ' ' << vertex_number_[t].at(edge[1]) << '\n';
+      write("tile_" + std::to_string(t) + ".walls", lines.str());
+    }
+  }
+
+  /// The labels that there are on both sides of the walls.
+  std::set<std::size_t> on_both_sides(const std::vector<std::vector<std::size_t>>& labels) const {
+    std::set<std::size_t> inside, outside, both;
+    for (std::size_t t = 0; t < 4; ++t)
+      for (std::size_t f = 0; f < faces_[t]; ++f)
+        (is_on_cap(faces_of_tile_[t][f]) ? inside : outside).insert(labels[t][f]);
+    for (const std::size_t label : inside)
+      if (outside.count(label) > 0) both.insert(label);
+    return both;
+  }
+
+  const meshes::Shape shape_ = meshes::two_spheres_with_neck(2.6, 0.35, 40);
+  std::vector<Edge> walls_;
+};
+
+TEST_F(Walled_tiles, HaveNoSegmentOnBothSides) {
+  ASSERT_EQ(run(command({"--segments", "2"})).exit_code, 0);
+  EXPECT_NE(on_both_sides(take_labels()), std::set<std::size_t>());
+  const Result result = run(command({"--segments", "2", "--constraints", "%.walls", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(on_both_sides(take_labels()), std::set<std::size_t>());
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["components"], 2);
+  ASSERT_EQ(run(command({"--seed", "0.3,0.3,2.3=4", "--seed", "0,0,-2.3=0", "--constraints", "%.walls"})).exit_code, 0);
+  const auto from_seeds = take_labels();
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) EXPECT_EQ(from_seeds[t][f] == 4, is_on_cap(faces_of_tile_[t][f]));
+}
+
+TEST_F(Walled_tiles, AreSegmentedAnewWhereWallsHaveChanged) {
+  const std::vector<std::string> walled = {"--segments", "2", "--constraints", "%.walls", "--tile-folder", "work"};
+  ASSERT_EQ(run(command(walled)).exit_code, 0);
+  const auto first = take_labels();
+  for (std::size_t t = 0; t < 4; ++t) {
+    const std::string file = "tile_" + std::to_string(t) + ".walls";
+    write(file, "# none\n");
+    fs::last_write_time(path(file), fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  }
+  ASSERT_EQ(run(command(walled)).exit_code, 0);
+  EXPECT_NE(take_labels(), first);
+  constexpr const char* other = "holds the work on other tiles or with other options";
+  expect_failure(3, other, command({"--segments", "2", "--tile-folder", "work"}));
+  expect_failure(3, other, command({"--constraints", "%.walls", "--constraints-angle", "40", "--tile-folder", "work"}));
+}
+
+TEST_F(Walled_tiles, RefuseWallsThatAreNone) {
+  expect_failure(1, "give a file for each", command({"--constraints", "tile_0.walls"}));
+  write("tile_2.walls", "0 1\n\n5 100000\n");
+  expect_failure(3, "tile_2.walls:3: the file has", command({"--constraints", "%.walls"}));
+  write("tile_2.walls", "0 zero\n");
+  const Result result = run(command({"--constraints", "%.walls"}));
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_NE(result.errors.find("tile_2.walls:1"), std::string::npos) << result.errors;
+  EXPECT_FALSE(fs::exists(path("tile_2.seg")));
+}
+
+TEST_F(Tiles, WithSharpEdgesAsWallsHaveTheSidesOfACube) {
+  const meshes::Shape cube = meshes::cube(10);
+  write_tiles(cube);
+  const Result result = run(command({"--constraints-angle", "40", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto all = take_labels();
+  std::map<std::size_t, std::set<std::size_t>> sides;  // by label
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) {
+      Eigen::Index axis = 0;
+      const Eigen::Vector3d from_centre = middle_of(cube, faces_of_tile_[t][f]) - Eigen::Vector3d(0.5, 0.5, 0.5);
+      from_centre.cwiseAbs().maxCoeff(&axis);
+      sides[all[t][f]].insert(static_cast<std::size_t>(2 * axis + (from_centre[axis] > 0)));
+    }
+  EXPECT_EQ(sides.size(), 6U);
+  for (const auto& [label, of_label] : sides) EXPECT_EQ(of_label.size(), 1U);
+  const Json segments = Json::parse(content_of(path("report.json")))["segments"];
+  ASSERT_EQ(segments.size(), 6U);
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (*sides[a].begin() / 2 != *sides[b].begin() / 2) {  // they meet
+        EXPECT_NE(segments[a]["color"], segments[b]["color"]);
+      }
+}
+
 TEST_F(Tiles, RefuseTheWorkOfOthers) {
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   expect_failure(3, "holds the work on other tiles or with other options",
@@ -295,7 +427,6 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
                                                   {"--seed", "1,2,3", "--segments", "2"},
                                                   {"--seed", "1,2,3", "--probabilities", "%.txt"},
                                                   {"--seeds-file", "%.txt"},
-                                                  {"--refine"},
                                                   {"--html", "a.html"},
                                                   {"--paper"},
                                                   {"--resume"},
@@ -305,7 +436,7 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
                                                   {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"},
                                                   {"--tile-step", "shape", "--tile-folder", "w"},
                                                   {"--workers", "none"},
-                                                  {"--constraints-angle", "30"},
+                                                  {"--refine"},
                                                   {"--time-limit", "3"}}) {
     const Result result = run(command(options));
     EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(options) << result.errors;

@@ -20,6 +20,9 @@
 
 namespace segment_mesh {
 
+/// A degree in radians.
+constexpr double degree = 3.14159265358979323846 / 180;
+
 /// An edge that nothing is to cross, as the user gives it.
 struct Constraint {
   std::array<std::uint64_t, 2> vertices;  ///< by their numbers in the file of the mesh
@@ -93,7 +96,6 @@ inline void mark_constraints(const std::vector<Point>& points, const std::vector
 
 /// Marks the edges over which the normal turns by more than an angle. Beside a face without area none is known.
 inline void mark_sharp_edges(const Mesh& mesh, double degrees, Wall_map walls) {
-  constexpr double degree = 3.14159265358979323846 / 180;
   const double extent = extent_of(mesh);
   if (!(extent > 0)) return;
   std::vector<Mesh_vector> normal;

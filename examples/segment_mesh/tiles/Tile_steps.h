@@ -14,6 +14,7 @@
 #include "../seeds.h"
 #include "../segment_colors.h"
 #include "../segments.h"
+#include "../walls.h"
 #include "step_contents.h"
 
 #include <RW_segmentation/tiled_segmentation.h>
@@ -55,6 +56,7 @@ class Tile_steps {
     if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
     if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
     method_.tolerance = options.tolerance.value_or(0);
+    if (options.constraints_angle) method_.wall_angle = *options.constraints_angle * degree;
   }
 
   static const std::vector<Step>& all() {
@@ -96,14 +98,18 @@ class Tile_steps {
     for (const char* file : step.files) std::filesystem::remove(path(step, file, tile));
   }
 
-  /// Whether a tile has changed since it was surveyed.
+  /// Whether a tile has changed since it was surveyed, or its walls.
   bool has_changed(std::size_t tile) const {
     namespace fs = std::filesystem;
     std::error_code error;
     const auto of_survey = fs::last_write_time(path_of_tile("survey", tile), error);
     if (error) return false;
-    const auto of_tile = fs::last_write_time(tasks_[tile].mesh, error);
-    return error || of_tile > of_survey;
+    const auto is_newer = [&](const std::string& path) {
+      const auto time = fs::last_write_time(path, error);
+      return error || time > of_survey;
+    };
+    const std::string& walls = tasks_[tile].files.constraints;
+    return is_newer(tasks_[tile].mesh) || (!walls.empty() && is_newer(walls));
   }
 
   /// The seeds of the user in words, which the steps from `places` on depend on.
@@ -119,6 +125,8 @@ class Tile_steps {
                        {"smoothing", method_.smoothing.radius},
                        {"seeds", method_.seeds},
                        {"tolerance", method_.tolerance},
+                       {"walls", options_.files.constraints},
+                       {"wall_angle", method_.wall_angle},
                        {"stitch", options_.repairs.stitch},
                        {"orient", options_.repairs.orient},
                        {"version", version()}};
@@ -204,6 +212,23 @@ class Tile_steps {
     return failure;
   }
 
+  /// A tile as it is in its file, and repaired.
+  Oriented_mesh read_tile(std::size_t tile, mesh_files::Polygon_soup& soup) const {
+    soup = read_input(tasks_[tile].mesh, options_.format);
+    refuse_mesh_without_faces(tasks_[tile].mesh, soup);
+    Oriented_mesh input = oriented_mesh(soup, options_.repairs);
+    refuse_mesh_without_faces(tasks_[tile].mesh, input);
+    return input;
+  }
+
+  /// The walls that a file names for a tile.
+  Wall_map named_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
+    const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+    const std::string& path = tasks_[tile].files.constraints;
+    if (!path.empty()) mark_constraints(soup.points, read_constraints(path), mesh, walls);
+    return walls;
+  }
+
   // ---- The steps ----
 
   void survey(std::size_t tile) const {
@@ -212,11 +237,10 @@ class Tile_steps {
     std::vector<std::size_t> left_out;  // faces of the file
     std::string failure;
     try {
-      const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
-      refuse_mesh_without_faces(tasks_[tile].mesh, soup);
-      const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
-      refuse_mesh_without_faces(tasks_[tile].mesh, input);
-      RW::Tile_of<Mesh> tile_of_mesh(input.mesh);
+      mesh_files::Polygon_soup soup;
+      Oriented_mesh input = read_tile(tile, soup);
+      const Wall_map walls = named_walls(tile, soup, input.mesh);
+      RW::Tile_of<Mesh> tile_of_mesh(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
       std::vector<Index> number(input.mesh.number_of_faces());
       for (Index f = 0; f < number.size(); ++f) number[tile_of_mesh.face_descriptors[f]] = f;
       for (const auto face : faces_in_file_order(soup, input)) tile_faces.push_back(number[face]);
@@ -258,13 +282,16 @@ class Tile_steps {
                           read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
     RW::internal::Face_corners corners;
     std::vector<Eigen::Vector3d> normals;
+    std::vector<char> is_wall;
+    for (Index e = 0; shape.mesh.has_walls() && e < shape.mesh.number_of_edges(); ++e)
+      is_wall.push_back(shape.mesh.is_wall(e));
     for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
       for (const auto v : shape.mesh.corners(f)) corners.add(v);
       corners.end_face();
       normals.push_back(shape.mesh.shape_normal(f));
     }
-    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), normals, shape.own_faces, shape.halo,
-               shape.shared_edges);
+    write_step(path_of_tile("shape", tile), "shape", corners, shape.mesh.points(), normals, is_wall, shape.own_faces,
+               shape.halo, shape.shared_edges);
     write_step(path_of_tile("outline", tile), "outline", outline);
   }
 
@@ -272,10 +299,11 @@ class Tile_steps {
     RW::Tile_shape shape;
     RW::internal::Face_corners corners;
     std::vector<Eigen::Vector3d> points, normals;
-    read_step(path_of_tile("shape", tile), "shape", corners, points, normals, shape.own_faces, shape.halo,
+    std::vector<char> is_wall;
+    read_step(path_of_tile("shape", tile), "shape", corners, points, normals, is_wall, shape.own_faces, shape.halo,
               shape.shared_edges);
-    shape.mesh =
-        RW::internal::part_of(plan, std::move(corners), std::move(points)).with_shape_normals(std::move(normals));
+    shape.mesh = RW::internal::part_of(plan, std::move(corners), std::move(points), std::move(is_wall))
+                     .with_shape_normals(std::move(normals));
     return shape;
   }
 
@@ -340,16 +368,18 @@ class Tile_steps {
 
     std::vector<double> area(segments, 0.);
     std::vector<std::set<std::size_t>> neighbours(segments);
+    const auto add_neighbours = [&](const std::array<Index, 2>& fragments) {
+      const std::size_t a = segment[fragments[0]], b = segment[fragments[1]];
+      if (a == b) return;
+      neighbours[a].insert(b);
+      neighbours[b].insert(a);
+    };
     for (const RW::Tile_regions& tile : regions) {
       for (std::size_t i = 0; i < tile.fragments.size(); ++i)
         area[segment[tile.fragments[i]]] += tile.regions[i].size.area;
+      for (const auto& fragments : tile.walls) add_neighbours(fragments);  // whose colours must differ, too
     }
-    for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) {
-      const auto [a, b] = boundary.regions;
-      if (segment[a] == segment[b]) continue;
-      neighbours[segment[a]].insert(segment[b]);
-      neighbours[segment[b]].insert(segment[a]);
-    }
+    for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) add_neighbours(boundary.regions);
     std::vector<std::vector<std::size_t>> lists;
     for (const auto& of_segment : neighbours) lists.emplace_back(of_segment.begin(), of_segment.end());
     std::vector<double> costs;

@@ -31,6 +31,7 @@ void transfer(Archive& a, Tile& x) {
   a(x.points);
   a(x.corners);
   a(x.vertex_ids);
+  a(x.walls);
 }
 
 template <class Archive>
@@ -72,6 +73,7 @@ void transfer(Archive& a, Tile_border& x) {
   a(x.corners);
   a(x.faces);
   a(x.width);
+  a(x.walls);
 }
 
 template <class Archive>
@@ -162,6 +164,7 @@ void transfer(Archive& a, Tile_regions& x) {
   a(x.regions);
   a(x.boundaries);
   a(x.sides);
+  a(x.walls);
 }
 
 namespace internal {
