@@ -402,6 +402,187 @@ TEST_F(Tiles, WithSharpEdgesAsWallsHaveTheSidesOfACube) {
       }
 }
 
+// ---- Boundaries ----
+
+using Place = std::array<double, 3>;
+
+double distance(const Place& p, const Place& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
+/// The triangles of an OFF file.
+std::vector<std::array<Place, 3>> triangles_in(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::size_t points = 0, faces = 0;
+  file >> line >> points >> faces;
+  std::getline(file, line);
+  std::vector<Place> place(points);
+  for (Place& p : place) file >> p[0] >> p[1] >> p[2];
+  std::vector<std::array<Place, 3>> triangles(faces);
+  for (auto& triangle : triangles) {
+    std::size_t corner = 0;
+    file >> corner;
+    for (Place& p : triangle) {
+      file >> corner;
+      p = place.at(corner);
+    }
+    std::getline(file, line);  // the colour
+  }
+  return triangles;
+}
+
+/// The sides that no other triangle has.
+std::set<std::array<Place, 2>> border_of(const std::vector<std::array<Place, 3>>& triangles) {
+  std::set<std::array<Place, 2>> border;
+  for (const auto& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array side = {triangle[k], triangle[(k + 1) % 3]};
+      std::sort(side.begin(), side.end());
+      if (!border.insert(side).second) border.erase(side);
+    }
+  return border;
+}
+
+double area_of(const std::vector<std::array<Place, 3>>& triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const Eigen::Vector3d u(b[0] - a[0], b[1] - a[1], b[2] - a[2]), v(c[0] - a[0], c[1] - a[1], c[2] - a[2]);
+    area += u.cross(v).norm() / 2;
+  }
+  return area;
+}
+
+/// The polylines of an OBJ file; closed ones end where they begin.
+std::vector<std::vector<Place>> lines_in(const std::string& path) {
+  std::vector<std::vector<Place>> lines;
+  std::vector<Place> points;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "v") {
+      Place& p = points.emplace_back();
+      words >> p[0] >> p[1] >> p[2];
+    } else if (kind == "l") {
+      lines.emplace_back();
+      for (std::size_t number = 0; words >> number;) lines.back().push_back(points.at(number - 1));
+    }
+  }
+  return lines;
+}
+
+double length_of(const std::vector<std::vector<Place>>& lines) {
+  double length = 0;
+  for (const auto& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
+  return length;
+}
+
+/// Four tiles of a ball with segments of seeds, whose boundaries cross the borders between tiles and are jagged: no crease
+/// tells where they belong.
+class Tiles_of_ball : public Tiles {
+ protected:
+  void SetUp() override {
+    Tiles::SetUp();
+    write_tiles(meshes::sphere(4));
+  }
+
+  void segment(std::vector<std::string> options) const {
+    for (const char* seed : {"1,0,0", "-1,0.2,0", "0,1,0.2", "0,-1,0", "0,0,-1", "0.4,0.1,0.9", "-0.3,-0.1,0.9"})
+      options.insert(options.end(), {"--seed", seed});
+    const Result result = run(command(options));
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+
+  std::vector<std::array<Place, 3>> triangles_of(std::size_t tile) const { return triangles_in(path(name(tile))); }
+};
+
+TEST_F(Tiles_of_ball, StillMeetVertexByVertexWhenRefined) {
+  segment({"--refine", "--output", "%_refined.off"});
+  std::size_t added = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const auto whole = triangles_of(t), refined = triangles_in(path("tile_" + std::to_string(t) + "_refined.off"));
+    added += refined.size() - whole.size();
+    EXPECT_EQ(border_of(refined), border_of(whole));
+    EXPECT_NEAR(area_of(refined), area_of(whole), 1e-9);
+  }
+  EXPECT_GT(added, 100U);
+}
+
+TEST_F(Tiles_of_ball, HaveTheLabelsOfFacesAroundWhenRefined) {
+  segment({});
+  const auto before = take_labels();
+  segment({"--refine", "--output", "%_refined.off", "--report", "report.json"});
+  const auto after = take_labels();
+  std::map<std::size_t, std::size_t> faces;
+  std::size_t cut = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const auto whole = triangles_of(t), refined = triangles_in(path("tile_" + std::to_string(t) + "_refined.off"));
+    ASSERT_EQ(after[t].size(), refined.size());
+    for (const std::size_t label : after[t]) ++faces[label];
+    std::map<Place, std::set<std::size_t>> around;  // a smooth boundary stays within an edge's length of the jagged one
+    for (std::size_t f = 0; f < whole.size(); ++f)
+      for (const Place& corner : whole[f]) around[corner].insert(before[t][f]);
+    for (std::size_t f = 0; f < whole.size(); ++f) {
+      cut += refined[f] != whole[f];
+      if (refined[f] != whole[f]) continue;
+      std::set<std::size_t> labels;
+      for (const Place& corner : whole[f]) labels.insert(around[corner].begin(), around[corner].end());
+      EXPECT_EQ(labels.count(after[t][f]), 1U);
+    }
+  }
+  EXPECT_GT(cut, 100U);
+  for (const Json& segment : Json::parse(content_of(path("report.json")))["segments"])
+    EXPECT_EQ(segment["faces"], faces[segment["label"].get<std::size_t>()]);
+}
+
+TEST_F(Tiles_of_ball, HaveBoundariesThatEndAtBordersAndWhereSegmentsMeet) {
+  segment({"--boundaries", "%_jagged.obj"});
+  const auto labels = take_labels();
+  segment({"--smooth", "--boundaries", "%_smooth.obj"});
+  EXPECT_EQ(take_labels(), labels);
+  double jagged_length = 0, smooth_length = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const std::string tile = path("tile_" + std::to_string(t));
+    const auto jagged = lines_in(tile + "_jagged.obj"), smooth = lines_in(tile + "_smooth.obj");
+    jagged_length += length_of(jagged);
+    smooth_length += length_of(smooth);
+    std::set<Place> on_border;
+    for (const auto& side : border_of(triangles_of(t))) on_border.insert(side.begin(), side.end());
+    for (const auto& lines : {jagged, smooth}) {
+      std::map<Place, std::size_t> ends;
+      for (const auto& line : lines)
+        if (line.front() != line.back())
+          for (const Place& end : {line.front(), line.back()}) ++ends[end];
+      for (const auto& [end, count] : ends) EXPECT_TRUE(count > 2 || on_border.count(end) > 0) << t;
+    }
+  }
+  EXPECT_GT(smooth_length, 0.5 * jagged_length);
+  EXPECT_LT(smooth_length, 0.95 * jagged_length);
+}
+
+TEST_F(Walled_tiles, HaveSmoothBoundariesThatKeepToTheWalls) {
+  ASSERT_EQ(
+      run(command({"--segments", "4", "--constraints", "%.walls", "--smooth", "--boundaries", "%.obj"})).exit_code, 0);
+  std::size_t within_tiles = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    std::set<Place> points;
+    for (const auto& line : lines_in(path("tile_" + std::to_string(t) + ".obj")))
+      points.insert(line.begin(), line.end());
+    for (const Edge& edge : walls_) {
+      bool is_at_border = false;
+      for (std::size_t other = 0; other < 4; ++other) is_at_border |= other != t && has(other, edge);
+      if (is_at_border || !has(t, edge)) continue;
+      ++within_tiles;
+      for (const std::size_t v : edge) {
+        const Eigen::Vector3d& p = shape_.points[v];
+        EXPECT_EQ(points.count({p[0], p[1], p[2]}), 1U);
+      }
+    }
+  }
+  EXPECT_GT(within_tiles, 10U);
+}
+
 TEST_F(Tiles, RefuseTheWorkOfOthers) {
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   expect_failure(3, "holds the work on other tiles or with other options",
@@ -436,7 +617,7 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
                                                   {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"},
                                                   {"--tile-step", "shape", "--tile-folder", "w"},
                                                   {"--workers", "none"},
-                                                  {"--refine"},
+                                                  {"--smooth"},
                                                   {"--time-limit", "3"}}) {
     const Result result = run(command(options));
     EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(options) << result.errors;

@@ -145,9 +145,6 @@ inline void check_tiles(const Options& options) {
   refuse(options.solver.has_value(), "--solver", reason);
   refuse(!files.constraints.empty() && !has_placeholder(files.constraints), "--constraints",
          "vertices have numbers in the file of each tile: give a file for each, with a % for its name");
-  refuse(options.is_smooth, "--smooth", reason);
-  refuse(options.is_refined, "--refine", reason);
-  refuse(!files.boundaries.empty(), "--boundaries", reason);
   refuse(options.are_parts_closed, "--cap-parts", reason);
   refuse(!files.hierarchy.empty(), "--hierarchy", reason);
   refuse(!files.html.empty(), "--html", reason);

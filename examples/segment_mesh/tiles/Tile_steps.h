@@ -6,6 +6,7 @@
 #include "../Options.h"
 #include "../Oriented_mesh.h"
 #include "../Output_files.h"
+#include "../Stages.h"
 #include "../Task.h"
 #include "../check_options.h"
 #include "../failure.h"
@@ -14,6 +15,8 @@
 #include "../seeds.h"
 #include "../segment_colors.h"
 #include "../segments.h"
+#include "../signals.h"
+#include "../treat_boundaries.h"
 #include "../walls.h"
 #include "step_contents.h"
 
@@ -173,6 +176,13 @@ class Tile_steps {
     return segment < labels_.size() ? labels_[segment] : labels_.back() + 1 + segment - labels_.size();
   }
 
+  /// The segment that has a label.
+  std::size_t segment_of(std::size_t label) const {
+    if (labels_.empty()) return label;
+    if (label > labels_.back()) return labels_.size() + label - labels_.back() - 1;
+    return static_cast<std::size_t>(std::lower_bound(labels_.begin(), labels_.end(), label) - labels_.begin());
+  }
+
   std::string path(const Step& step, const char* file, std::size_t tile) const {
     return step.is_of_each_tile ? path_of_tile(file, tile) : folder_ + "/" + file;
   }
@@ -212,7 +222,7 @@ class Tile_steps {
     return failure;
   }
 
-  /// A tile as it is in its file, and repaired.
+  /// A tile as it is in its file, and repaired: each time in the same way.
   Oriented_mesh read_tile(std::size_t tile, mesh_files::Polygon_soup& soup) const {
     soup = read_input(tasks_[tile].mesh, options_.format);
     refuse_mesh_without_faces(tasks_[tile].mesh, soup);
@@ -412,26 +422,59 @@ class Tile_steps {
     return s;
   }
 
+  /// What is written of a tile.
+  struct Labelled_tile {
+    mesh_files::Polygon_soup soup;
+    std::vector<Mesh::Face_index> faces;  ///< by face of the soup: that of the result which speaks for it
+    Segmentation result;
+  };
+
+  /// A tile as it is in its file.
+  /// \param tile_faces by face of the file: its number in the tile
+  /// \param label by face of the tile
+  Labelled_tile labelled_file(std::size_t tile, const std::vector<Index>& tile_faces,
+                              std::vector<std::size_t> label) const {
+    Labelled_tile labelled;
+    labelled.soup = read_input(tasks_[tile].mesh, options_.format);
+    for (const Index face : tile_faces) labelled.faces.emplace_back(face);
+    labelled.result.label = std::move(label);
+    return labelled;
+  }
+
+  /// A tile with its boundaries smoothed and cut into it, as far as asked for.
+  /// \param label by face of the tile
+  Labelled_tile with_boundaries(std::size_t tile, const std::vector<std::size_t>& label, Output_files& files) const {
+    Labelled_tile labelled;
+    Oriented_mesh input = read_tile(tile, labelled.soup);
+    const Wall_map walls = named_walls(tile, labelled.soup, input.mesh);
+    if (options_.constraints_angle) mark_sharp_edges(input.mesh, *options_.constraints_angle, walls);
+    labelled.result.label.resize(label.size());
+    const RW::Tile_of<Mesh> numbered(input.mesh);
+    for (Index f = 0; f < label.size(); ++f) labelled.result.label[numbered.face_descriptors[f]] = label[f];
+    Stages without_bar(false, "", is_interrupted, Deadline({}));
+    treat_boundaries(options_, labelled.soup, input, walls, labelled.result, without_bar, files);
+    labelled.faces = faces_in_file_order(labelled.soup, input);
+    return labelled;
+  }
+
   void labels(std::size_t tile) const {
     const Segments all = read_segments();
     std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
     if (failure_of(tile).empty()) {
       Output_files files(tasks_[tile].files, options_);
       std::vector<Index> tile_faces;
-      std::vector<std::size_t> left_out;
+      std::vector<std::size_t> left_out, label;
       read_step(path_of_tile("file_faces", tile), "file_faces", tile_faces, left_out);
-      const auto fragments = read<std::vector<Index>>("fragments", tile);
-      Segmentation result;
-      for (const Index fragment : fragments) result.label.push_back(label_of(all.of_fragment.at(fragment)));
-      std::vector<Mesh::Face_index> faces;  // those of the tile: no output that tiles have asks a mesh for more
-      for (const Index face : tile_faces) {
-        faces.emplace_back(face);
-        ++faces_of_segment[all.of_fragment.at(fragments.at(face))];
-      }
+      for (const Index fragment : read<std::vector<Index>>("fragments", tile))
+        label.push_back(label_of(all.of_fragment.at(fragment)));
+      const Labelled_tile labelled = treats_boundaries(options_) ? with_boundaries(tile, label, files)
+                                                                 : labelled_file(tile, tile_faces, std::move(label));
       std::vector<Segment> segments;
       for (std::size_t s = 0; s < all.area.size(); ++s)
-        if (faces_of_segment[s] > 0) segments.push_back({label_of(s), faces_of_segment[s], all.area[s], all.colors[s]});
-      files.write(read_input(tasks_[tile].mesh, options_.format), nullptr, faces, result, segments);
+        segments.push_back({label_of(s), 0, all.area[s], all.colors[s]});
+      segments = counted_in_file(std::move(segments), in_file_order(labelled.faces, labelled.result.label));
+      for (const Segment& segment : segments) faces_of_segment[segment_of(segment.label)] = segment.faces;
+      files.write(labelled.soup, nullptr, labelled.faces, labelled.result, segments);
       files.write_left_out(left_out);
       files.commit({});
     }
