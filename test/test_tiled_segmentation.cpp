@@ -16,6 +16,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@
 #include "meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -58,9 +60,25 @@ Tile as_tile(const Shape& shape) {
   return tile;
 }
 
+/// Edges by their two vertices, the lower one first.
+using Edges = std::set<std::array<std::size_t, 2>>;
+
+/// Calls `use(face, edge)` for each side of each face.
+template <class Use>
+void for_each_side(const Shape& shape, const Use& use) {
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    std::size_t from = shape.faces[f].back();
+    for (const std::size_t to : shape.faces[f]) {
+      use(f, std::array{std::min(from, to), std::max(from, to)});
+      from = to;
+    }
+  }
+}
+
 /// A mesh in tiles, and where each of its faces has come to.
 struct Cut_mesh {
   std::vector<Tile> tiles;
+  std::vector<std::map<std::size_t, Index>> number;        // by tile, of vertices of the mesh
   std::vector<std::pair<std::size_t, std::size_t>> place;  // by face: tile, and face of it
 
   /// What tiles say of their faces, in the order of the mesh.
@@ -75,7 +93,7 @@ struct Cut_mesh {
 Cut_mesh cut(const Shape& shape, std::size_t tiles, const std::function<std::size_t(const Eigen::Vector3d&)>& tile_at) {
   Cut_mesh result;
   result.tiles.resize(tiles);
-  std::vector<std::map<std::size_t, Index>> number(tiles);
+  result.number.resize(tiles);
   for (const auto& face : shape.faces) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
@@ -83,7 +101,7 @@ Cut_mesh cut(const Shape& shape, std::size_t tiles, const std::function<std::siz
     Tile& tile = result.tiles[t];
     result.place.emplace_back(t, tile.number_of_faces());
     for (const auto v : face) {
-      const auto [place, is_new] = number[t].emplace(v, static_cast<Index>(tile.points.size()));
+      const auto [place, is_new] = result.number[t].emplace(v, static_cast<Index>(tile.points.size()));
       if (is_new) {
         tile.points.push_back(shape.points[v]);
         tile.vertex_ids.push_back(1000 + v);
@@ -113,18 +131,37 @@ Cut_mesh octants(const Shape& shape) {
   });
 }
 
+/// A copy of which one tile names each wall, even if it lies between two.
+Cut_mesh with_walls(Cut_mesh mesh, const Shape& shape, Edges walls) {
+  for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
+    if (walls.erase(edge) == 0) return;
+    const std::size_t t = mesh.place[f].first;
+    mesh.tiles[t].walls.push_back({mesh.number[t].at(edge[0]), mesh.number[t].at(edge[1])});
+  });
+  return mesh;
+}
+
 /// Two balls with a neck between them.
 Shape dumbbell() { return meshes::two_spheres_with_neck(2.6, 0.35, 40); }
 
 double rand_error(const Labels& a, const Labels& b) { return segmentation_measures::Overlaps(a, b).rand_index_error(); }
 
-Labels segments_of_whole(const Shape& shape, std::size_t segments) {
+/// Whether each edge of a mesh is a wall.
+auto wall_map(const meshes::Surface_mesh& mesh, const Edges& walls) {
+  return boost::make_function_property_map<meshes::Surface_mesh::Edge_index>(
+      [&](const meshes::Surface_mesh::Edge_index& e) {
+        const std::size_t u = mesh.vertex(e, 0), v = mesh.vertex(e, 1);
+        return walls.count({std::min(u, v), std::max(u, v)}) > 0;
+      });
+}
+
+Labels segments_of_whole(const Shape& shape, std::size_t segments, const Edges& walls = {}) {
   auto mesh = meshes::surface_mesh(shape);
   const auto ids = mesh.add_property_map<meshes::Surface_mesh::Face_index, std::size_t>("f:id").first;
   Automatic_segmentation policies(segments);
   policies.reduction = Tiled_segmentation().reduction;
   policies.reduction.largest_direct = 0;
-  segmentation_via_random_walks(mesh, ids, policies);
+  segmentation_via_random_walks(mesh, ids, policies, CGAL::parameters::edge_is_constrained_map(wall_map(mesh, walls)));
   return {ids.begin(), ids.end()};
 }
 
@@ -268,9 +305,10 @@ std::vector<Seed_point> seeds_on_dumbbell() {
 }
 
 /// By the walk over the faces of the whole.
-Labels segments_of_whole(const Shape& shape, const std::vector<Seed_point>& seeds) {
+Labels segments_of_whole(const Shape& shape, const std::vector<Seed_point>& seeds, const Edges& walls = {}) {
   const auto mesh = meshes::surface_mesh(shape);
-  const Dual_mesh_of smoothed = smoothed_shape(Dual_mesh_of(mesh));
+  const Dual_mesh_of smoothed =
+      smoothed_shape(Dual_mesh_of(mesh, CGAL::parameters::edge_is_constrained_map(wall_map(mesh, walls))));
   Random_walk walk(mesh, Conductance(smoothed, Dihedral_difference(smoothed, seeded_concavity())));
   for (const auto& [point, label] : seeds) {
     std::vector<double> distance;
@@ -371,6 +409,266 @@ TEST(TiledSegmentation, RefusesSeedsThatContradictEachOtherOrLieNowhere) {
   EXPECT_THROW(segments_of_tiles(tiles, {}), std::invalid_argument);
   EXPECT_THROW(segments_of_tiles({}, {{point, 0}}), std::invalid_argument);
   EXPECT_THROW(segments_of_tiles({Tile()}, {{point, 0}}), std::invalid_argument);
+}
+
+// ---- Walls ----
+
+/// A part of a mesh, and the closed loops of walls round it.
+struct Walled_part {
+  std::vector<char> contains;  // by face
+  Edges walls;
+
+  Walled_part(const Shape& shape, const std::function<bool(const Eigen::Vector3d&)>& is_inside) {
+    for (const auto& face : shape.faces) {
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
+      contains.push_back(is_inside(middle));
+    }
+    std::map<std::array<std::size_t, 2>, std::size_t> faces_inside;
+    for_each_side(shape, [&](std::size_t f, const auto& edge) { faces_inside[edge] += contains[f] != 0; });
+    for (const auto& [edge, faces] : faces_inside)
+      if (faces == 1) walls.insert(edge);
+  }
+
+  /// The labels that there are on both sides.
+  std::set<std::size_t> on_both_sides(const Labels& labels) const {
+    std::set<std::size_t> inside, both;
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      if (contains[f]) inside.insert(labels[f]);
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      if (!contains[f] && inside.count(labels[f]) > 0) both.insert(labels[f]);
+    return both;
+  }
+};
+
+/// A piece of the upper ball, where no crease is.
+bool is_on_cap(const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(0.7, 0.3, 1.7)).norm() < 0.6; }
+
+Walled_part cap_of(const Shape& dumbbell) { return {dumbbell, is_on_cap}; }
+
+/// Tiles whose borders cross the walls round the cap, and some whose border they are.
+std::vector<Cut_mesh> cuts_through_cap(const Shape& dumbbell) {
+  const Edges walls = cap_of(dumbbell).walls;
+  std::vector<Cut_mesh> cuts = {slices(dumbbell, 1), slices(dumbbell, 5), octants(dumbbell),
+                                cut(dumbbell, 2, [](const auto& p) { return std::size_t(is_on_cap(p)); }),
+                                cut(dumbbell, 3, [](const auto& p) { return is_on_cap(p) ? 1 + (p[1] > 0.3) : 0; })};
+  for (Cut_mesh& mesh : cuts) mesh = with_walls(std::move(mesh), dumbbell, walls);
+  return cuts;
+}
+
+TEST(TiledSegmentation, WithWallsCutsWhereTheWholeIsCutHoweverItIsTiled) {
+  constexpr std::size_t segments = 4;
+  const Shape shape = dumbbell();
+  const Walled_part cap = cap_of(shape);
+  const Labels whole = segments_of_whole(shape, segments, cap.walls);
+  for (const Cut_mesh& mesh : cuts_through_cap(shape)) {
+    const Labels tiled = tiled_segments(mesh, segments);
+    EXPECT_EQ(cap.on_both_sides(tiled), std::set<std::size_t>());
+    EXPECT_LE(rand_error(whole, tiled), 0.02);
+  }
+}
+
+TEST(TiledSegmentation, HasNoSegmentOnBothSidesOfWallsAtAnyLevel) {
+  const Shape shape = dumbbell();
+  const Walled_part cap = cap_of(shape);
+  for (const Cut_mesh& mesh : cuts_through_cap(shape)) {
+    const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
+    EXPECT_EQ(hierarchy.components, 2U);
+    // Levels are nested, so that the last one speaks for all.
+    EXPECT_EQ(cap.on_both_sides(mesh.of_whole(hierarchy.segments(2))), std::set<std::size_t>());
+    EXPECT_THROW(hierarchy.segments(1), std::invalid_argument);
+  }
+}
+
+TEST(TiledSegmentation, FromSeedsNeverCrossesWalls) {
+  const Shape shape = dumbbell();
+  const Walled_part cap = cap_of(shape);
+  const std::vector<Seed_point> seeds = {
+      {{0.8, 0.3, 1.9}, 3}, {{0, 0, -2.3}, 0}, {{-0.6, -0.5, 2}, 1}, {{0, 0.4, 0}, 2}};
+  const Labels whole = segments_of_whole(shape, seeds, cap.walls);
+  for (const Cut_mesh& mesh : cuts_through_cap(shape)) {
+    const Labels tiled = tiled_segments(mesh, seeds);
+    std::size_t different = 0;
+    for (std::size_t f = 0; f < tiled.size(); ++f) {
+      different += tiled[f] != whole[f];
+      EXPECT_EQ(tiled[f] == 3, cap.contains[f] != 0) << f;
+    }
+    EXPECT_LE(static_cast<double>(different), 0.01 * static_cast<double>(whole.size()));
+  }
+}
+
+/// A cube about the origin, and which of its six sides each face lies in.
+struct Sided_cube {
+  Shape shape = meshes::moved(meshes::cube(8), {-0.5, -0.5, -0.5});
+  Labels side;
+
+  Sided_cube() {
+    for (const auto& face : shape.faces) side.push_back(side_at(middle_of(face)));
+  }
+  Eigen::Vector3d middle_of(const std::vector<std::size_t>& face) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto v : face) sum += shape.points[v];
+    return sum / static_cast<double>(face.size());
+  }
+  static std::size_t side_at(const Eigen::Vector3d& p) {
+    Eigen::Index axis = 0;
+    p.cwiseAbs().maxCoeff(&axis);
+    return static_cast<std::size_t>(2 * axis + (p[axis] > 0));
+  }
+  /// Tiles that cross the edges of the cube, that meet there, and that do both.
+  std::vector<Cut_mesh> cuts() const {
+    return {slices(shape, 1), slices(shape, 3), octants(shape), cut(shape, 6, side_at),
+            cut(shape, 12, [](const auto& p) { return 2 * side_at(p) + (p[0] + p[1] + p[2] > 0.07); })};
+  }
+};
+
+/// With sharp edges as walls.
+Tiled_segmentation by_wall_angle() {
+  Tiled_segmentation options;
+  options.wall_angle = 0.7;
+  return options;
+}
+
+TEST(TiledSegmentation, WithSharpEdgesAsWallsACubeHasItsSixSidesHoweverItIsTiled) {
+  const Sided_cube cube;
+  for (const Cut_mesh& mesh : cube.cuts()) {
+    const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, by_wall_angle());
+    EXPECT_EQ(hierarchy.components, 6U);
+    EXPECT_EQ(rand_error(cube.side, mesh.of_whole(hierarchy.segments(6))), 0);
+    EXPECT_THROW(hierarchy.segments(5), std::invalid_argument);
+  }
+}
+
+TEST(TiledSegmentation, PlacesASeedInEachPartThatWallsEnclose) {
+  const Sided_cube cube;
+  for (const Cut_mesh& mesh : cube.cuts()) {
+    Tiled_segmentation options = by_wall_angle();
+    options.seeds = 1;
+    const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, options);
+    EXPECT_EQ(hierarchy.tree.number_of_fragments(), 6U);
+    EXPECT_EQ(rand_error(cube.side, mesh.of_whole(hierarchy.segments(6))), 0);
+  }
+}
+
+/// What the steps leave of tiles with seeds that place themselves.
+internal::Walked_tiles walked(const std::vector<Tile>& tiles, const Tiled_segmentation& options) {
+  return internal::walk_over_tiles_in_memory(
+      tiles, options,
+      [&](const Tile_plan& plan, const std::vector<Tile_shape>&, const std::vector<Tile_outline>& outlines,
+          const Progress& progress) { return seeds_of_tiles(plan, outlines, options, progress); },
+      {});
+}
+
+TEST(TiledSegmentation, TellsWhichFragmentsLieBesideEachOtherAtWalls) {
+  const Sided_cube cube;
+  for (const Cut_mesh& mesh : cube.cuts()) {
+    Tiled_segmentation options = by_wall_angle();
+    options.seeds = 1;
+    const internal::Walked_tiles tiles = walked(mesh.tiles, options);
+    std::set<std::array<Index, 2>> pairs;
+    for (const Tile_regions& regions : tiles.regions) {
+      pairs.insert(regions.walls.begin(), regions.walls.end());
+      EXPECT_TRUE(regions.boundaries.empty());
+    }
+    EXPECT_EQ(pairs.size(), 12U);  // the edges of a cube
+  }
+}
+
+/// The shapes of tiles with their halos.
+std::vector<Tile_shape> shapes_of(const std::vector<Tile>& tiles, const Tile_plan& plan,
+                                  const Tiled_segmentation& options) {
+  std::vector<Tile_border> borders;
+  std::vector<Tile_noise> noises(tiles.size());
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    borders.push_back(border_of_tile(tiles[t], {t, plan}, noises[t], options));
+  std::vector<Tile_shape> shapes;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    std::vector<Tile_border> neighbours;
+    for (const auto n : plan.tiles[t].neighbours) neighbours.push_back(borders[n]);
+    shapes.push_back(shape_of_tile(tiles[t], {t, plan}, neighbours, noise_of_tiles(noises), options).shape);
+  }
+  return shapes;
+}
+
+TEST(TiledSegmentation, TilesSeeTheWallsOfTheirNeighbours) {
+  const Shape shape = dumbbell();
+  const Edges walls = cap_of(shape).walls;
+  for (const Cut_mesh& mesh : cuts_through_cap(shape)) {
+    const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+    const auto coordinates = [](const Eigen::Vector3d& p) { return std::array{p[0], p[1], p[2]}; };
+    std::map<std::array<double, 3>, std::size_t> vertex_at;
+    for (std::size_t v = 0; v < shape.points.size(); ++v) vertex_at[coordinates(plan.box.scaled(shape.points[v]))] = v;
+    Edges seen;
+    for (const Tile_shape& of_tile : shapes_of(mesh.tiles, plan, {}))
+      for (Index e = 0; e < of_tile.mesh.number_of_edges(); ++e) {
+        const auto [a, b] = of_tile.mesh.ends(e);
+        const std::size_t u = vertex_at.at(coordinates(of_tile.mesh.point(a)));
+        const std::size_t v = vertex_at.at(coordinates(of_tile.mesh.point(b)));
+        const std::array edge = {std::min(u, v), std::max(u, v)};
+        EXPECT_EQ(of_tile.mesh.is_wall(e), walls.count(edge) > 0);
+        if (of_tile.mesh.is_wall(e)) seen.insert(edge);
+      }
+    EXPECT_EQ(seen, walls);
+  }
+}
+
+TEST(TiledSegmentation, TilesAgreeWhichEdgesAreSharpWhereTheirVerticesLieApart) {
+  Cut_mesh mesh = octants(meshes::with_noise(meshes::sphere(4), 0.01));
+  Tiled_segmentation options;
+  options.tolerance = 0.002;
+  for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
+    for (Eigen::Vector3d& p : mesh.tiles[t].points) p[0] += 2e-4 * static_cast<double>(t);
+  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles), options);
+  for (const double angle : {0.1, 0.2, 0.3, 0.4}) {
+    options.wall_angle = angle;
+    std::map<internal::Tile_side, std::set<bool>> answers;
+    std::map<bool, std::size_t> count;
+    for (const Tile_shape& shape : shapes_of(mesh.tiles, plan, options))
+      for (const auto& shared : shape.shared_edges) {
+        const bool is_wall = shape.mesh.is_wall(shared.edge);
+        answers[shared.side].insert(is_wall);
+        ++count[is_wall];
+      }
+    for (const auto& [side, of_tiles] : answers) EXPECT_EQ(of_tiles.size(), 1U);
+    EXPECT_GT(count[true], 10U);
+    EXPECT_GT(count[false], 10U);
+  }
+}
+
+TEST(TiledSegmentation, ReadsConstrainedEdgesOfAnyMeshAsWalls) {
+  const Shape shape = meshes::cube_of_quads();
+  const auto mesh = meshes::surface_mesh(shape);
+  Edges walls;
+  for_each_side(shape, [&](std::size_t f, const auto& edge) {
+    if (f == 0 && walls.size() < 2) walls.insert(edge);
+  });
+  const Tile_of tile(mesh, CGAL::parameters::edge_is_constrained_map(wall_map(mesh, walls)));
+  Edges read;
+  for (const auto& wall : tile.walls) {
+    std::vector<std::size_t> ends;
+    for (const Index end : wall)
+      for (std::size_t v = 0; v < shape.points.size(); ++v)
+        if (shape.points[v] == tile.points[end]) ends.push_back(v);
+    read.insert({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
+  }
+  EXPECT_EQ(tile.walls.size(), read.size());
+  EXPECT_EQ(read, walls);
+}
+
+TEST(TiledSegmentation, RefusesWallsThatAreNoEdgesAndAnglesThatAreNone) {
+  Tile tile = as_tile(meshes::cube());
+  tile.walls = {{tile.corners[0][0], tile.corners[0][1]}};
+  EXPECT_NO_THROW(survey_tile(tile));
+  tile.walls.push_back({tile.corners[0][0], tile.corners[0][0]});
+  EXPECT_THROW(survey_tile(tile), std::invalid_argument);
+  tile.walls.back() = {tile.corners[0][0], 1000};
+  EXPECT_THROW(survey_tile(tile), std::invalid_argument);
+  tile.walls.clear();
+  Tiled_segmentation options;
+  for (const double angle : {-0.1, std::nan("")}) {
+    options.wall_angle = angle;
+    EXPECT_THROW(hierarchy_of_tiles({tile}, options), std::invalid_argument);
+  }
 }
 
 // ---- Measures of the whole ----

@@ -10,6 +10,8 @@
 
 #include <signal.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -45,16 +47,23 @@ class Tiles : public Segment_mesh_tool {
     write_tiles(meshes::two_spheres_with_neck(2.6, 0.35, 40));
   }
 
+  static Eigen::Vector3d middle_of(const meshes::Shape& shape, std::size_t face) {
+    const auto& corners = shape.faces[face];
+    return (shape.points[corners[0]] + shape.points[corners[1]] + shape.points[corners[2]]) / 3;
+  }
+
   void write_tiles(const meshes::Shape& shape) {
     for (std::size_t t = 0; t < 4; ++t) {
-      std::map<std::size_t, std::size_t> number;
+      auto& number = vertex_number_[t];
+      number.clear();
+      faces_of_tile_[t].clear();
       std::ostringstream points, faces;
       points.precision(17);
-      std::size_t count = 0;
-      for (const auto& face : shape.faces) {
-        const Eigen::Vector3d middle = (shape.points[face[0]] + shape.points[face[1]] + shape.points[face[2]]) / 3;
+      for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+        const auto& face = shape.faces[f];
+        const Eigen::Vector3d middle = middle_of(shape, f);
         if (std::size_t(middle[0] > 0.1) + 2 * std::size_t(middle[2] > 0.9) != t) continue;
-        ++count;
+        faces_of_tile_[t].push_back(f);
         faces << face.size();
         for (const auto v : face) {
           const auto [place, is_new] = number.emplace(v, number.size());
@@ -63,9 +72,9 @@ class Tiles : public Segment_mesh_tool {
         }
         faces << '\n';
       }
-      faces_[t] = count;
+      faces_[t] = faces_of_tile_[t].size();
       std::ostringstream off;
-      off << "OFF\n" << number.size() << ' ' << count << " 0\n" << points.str() << faces.str();
+      off << "OFF\n" << number.size() << ' ' << faces_[t] << " 0\n" << points.str() << faces.str();
       write(name(t), off.str());
     }
   }
@@ -90,6 +99,8 @@ class Tiles : public Segment_mesh_tool {
   }
 
   std::size_t faces_[4] = {};
+  std::vector<std::size_t> faces_of_tile_[4];                 // of the shape
+  std::map<std::size_t, std::size_t> vertex_number_[4] = {};  // in the file, by vertex of the shape
 };
 
 TEST_F(Tiles, HaveOneLabelWhereverASegmentGoesOn) {
@@ -270,6 +281,308 @@ TEST_F(Tiles, GiveFacesThatAreLeftOutTheLabelsOfTheClosestOnes) {
   EXPECT_EQ(content_of(path("tile_0.txt")), std::to_string(faces) + '\n');
 }
 
+// ---- Walls ----
+
+/// Four tiles of a dumbbell with walls round a piece of one of its balls, across a border between tiles.
+class Walled_tiles : public Tiles {
+ protected:
+  using Edge = std::array<std::size_t, 2>;
+
+  void SetUp() override {
+    Tiles::SetUp();
+    std::map<Edge, std::vector<std::size_t>> faces;
+    for (std::size_t f = 0; f < shape_.faces.size(); ++f) {
+      std::size_t from = shape_.faces[f].back();
+      for (const std::size_t to : shape_.faces[f]) {
+        faces[{std::min(from, to), std::max(from, to)}].push_back(f);
+        from = to;
+      }
+    }
+    for (const auto& [edge, beside] : faces)
+      if (is_on_cap(beside[0]) != is_on_cap(beside[1])) walls_.push_back(edge);
+    write_walls();
+  }
+
+  bool is_on_cap(std::size_t face) const {
+    return (middle_of(shape_, face) - Eigen::Vector3d(0.3, 0.3, 2.1)).norm() < 0.6;
+  }
+
+  bool has(std::size_t tile, const Edge& edge) const {
+    return vertex_number_[tile].count(edge[0]) > 0 && vertex_number_[tile].count(edge[1]) > 0;
+  }
+
+  /// Each wall in the file of one tile.
+  void write_walls() const {
+    for (std::size_t t = 0; t < 4; ++t) {
+      std::ostringstream lines;
+      for (const Edge& edge : walls_)
+        if (has(t, edge) && (t == 0 || !has(t - 1, edge)))
+          lines << vertex_number_[t].at(edge[0]) << ' ' << vertex_number_[t].at(edge[1]) << '\n';
+      write("tile_" + std::to_string(t) + ".walls", lines.str());
+    }
+  }
+
+  /// The labels that there are on both sides of the walls.
+  std::set<std::size_t> on_both_sides(const std::vector<std::vector<std::size_t>>& labels) const {
+    std::set<std::size_t> inside, outside, both;
+    for (std::size_t t = 0; t < 4; ++t)
+      for (std::size_t f = 0; f < faces_[t]; ++f)
+        (is_on_cap(faces_of_tile_[t][f]) ? inside : outside).insert(labels[t][f]);
+    for (const std::size_t label : inside)
+      if (outside.count(label) > 0) both.insert(label);
+    return both;
+  }
+
+  const meshes::Shape shape_ = meshes::two_spheres_with_neck(2.6, 0.35, 40);
+  std::vector<Edge> walls_;
+};
+
+TEST_F(Walled_tiles, HaveNoSegmentOnBothSides) {
+  ASSERT_EQ(run(command({"--segments", "2"})).exit_code, 0);
+  EXPECT_NE(on_both_sides(take_labels()), std::set<std::size_t>());
+  const Result result = run(command({"--segments", "2", "--constraints", "%.walls", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(on_both_sides(take_labels()), std::set<std::size_t>());
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["components"], 2);
+  ASSERT_EQ(run(command({"--seed", "0.3,0.3,2.3=4", "--seed", "0,0,-2.3=0", "--constraints", "%.walls"})).exit_code, 0);
+  const auto from_seeds = take_labels();
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) EXPECT_EQ(from_seeds[t][f] == 4, is_on_cap(faces_of_tile_[t][f]));
+}
+
+TEST_F(Walled_tiles, AreSegmentedAnewWhereWallsHaveChanged) {
+  const std::vector<std::string> walled = {"--segments", "2", "--constraints", "%.walls", "--tile-folder", "work"};
+  ASSERT_EQ(run(command(walled)).exit_code, 0);
+  const auto first = take_labels();
+  for (std::size_t t = 0; t < 4; ++t) {
+    const std::string file = "tile_" + std::to_string(t) + ".walls";
+    write(file, "# none\n");
+    fs::last_write_time(path(file), fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  }
+  ASSERT_EQ(run(command(walled)).exit_code, 0);
+  EXPECT_NE(take_labels(), first);
+  constexpr const char* other = "holds the work on other tiles or with other options";
+  expect_failure(3, other, command({"--segments", "2", "--tile-folder", "work"}));
+  expect_failure(3, other, command({"--constraints", "%.walls", "--constraints-angle", "40", "--tile-folder", "work"}));
+}
+
+TEST_F(Walled_tiles, RefuseWallsThatAreNone) {
+  expect_failure(1, "give a file for each", command({"--constraints", "tile_0.walls"}));
+  write("tile_2.walls", "0 1\n\n5 100000\n");
+  expect_failure(3, "tile_2.walls:3: the file has", command({"--constraints", "%.walls"}));
+  write("tile_2.walls", "0 zero\n");
+  const Result result = run(command({"--constraints", "%.walls"}));
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_NE(result.errors.find("tile_2.walls:1"), std::string::npos) << result.errors;
+  EXPECT_FALSE(fs::exists(path("tile_2.seg")));
+}
+
+TEST_F(Tiles, WithSharpEdgesAsWallsHaveTheSidesOfACube) {
+  const meshes::Shape cube = meshes::cube(10);
+  write_tiles(cube);
+  const Result result = run(command({"--constraints-angle", "40", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto all = take_labels();
+  std::map<std::size_t, std::set<std::size_t>> sides;  // by label
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) {
+      Eigen::Index axis = 0;
+      const Eigen::Vector3d from_centre = middle_of(cube, faces_of_tile_[t][f]) - Eigen::Vector3d(0.5, 0.5, 0.5);
+      from_centre.cwiseAbs().maxCoeff(&axis);
+      sides[all[t][f]].insert(static_cast<std::size_t>(2 * axis + (from_centre[axis] > 0)));
+    }
+  EXPECT_EQ(sides.size(), 6U);
+  for (const auto& [label, of_label] : sides) EXPECT_EQ(of_label.size(), 1U);
+  const Json segments = Json::parse(content_of(path("report.json")))["segments"];
+  ASSERT_EQ(segments.size(), 6U);
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (*sides[a].begin() / 2 != *sides[b].begin() / 2) {  // they meet
+        EXPECT_NE(segments[a]["color"], segments[b]["color"]);
+      }
+}
+
+// ---- Boundaries ----
+
+using Place = std::array<double, 3>;
+
+double distance(const Place& p, const Place& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
+/// The triangles of an OFF file.
+std::vector<std::array<Place, 3>> triangles_in(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::size_t points = 0, faces = 0;
+  file >> line >> points >> faces;
+  std::getline(file, line);
+  std::vector<Place> place(points);
+  for (Place& p : place) file >> p[0] >> p[1] >> p[2];
+  std::vector<std::array<Place, 3>> triangles(faces);
+  for (auto& triangle : triangles) {
+    std::size_t corner = 0;
+    file >> corner;
+    for (Place& p : triangle) {
+      file >> corner;
+      p = place.at(corner);
+    }
+    std::getline(file, line);  // the colour
+  }
+  return triangles;
+}
+
+/// The sides that no other triangle has.
+std::set<std::array<Place, 2>> border_of(const std::vector<std::array<Place, 3>>& triangles) {
+  std::set<std::array<Place, 2>> border;
+  for (const auto& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array side = {triangle[k], triangle[(k + 1) % 3]};
+      std::sort(side.begin(), side.end());
+      if (!border.insert(side).second) border.erase(side);
+    }
+  return border;
+}
+
+double area_of(const std::vector<std::array<Place, 3>>& triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const Eigen::Vector3d u(b[0] - a[0], b[1] - a[1], b[2] - a[2]), v(c[0] - a[0], c[1] - a[1], c[2] - a[2]);
+    area += u.cross(v).norm() / 2;
+  }
+  return area;
+}
+
+/// The polylines of an OBJ file; closed ones end where they begin.
+std::vector<std::vector<Place>> lines_in(const std::string& path) {
+  std::vector<std::vector<Place>> lines;
+  std::vector<Place> points;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "v") {
+      Place& p = points.emplace_back();
+      words >> p[0] >> p[1] >> p[2];
+    } else if (kind == "l") {
+      lines.emplace_back();
+      for (std::size_t number = 0; words >> number;) lines.back().push_back(points.at(number - 1));
+    }
+  }
+  return lines;
+}
+
+double length_of(const std::vector<std::vector<Place>>& lines) {
+  double length = 0;
+  for (const auto& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
+  return length;
+}
+
+/// Four tiles of a ball with segments of seeds, whose boundaries cross the borders between tiles and are jagged: no crease
+/// tells where they belong.
+class Tiles_of_ball : public Tiles {
+ protected:
+  void SetUp() override {
+    Tiles::SetUp();
+    write_tiles(meshes::sphere(4));
+  }
+
+  void segment(std::vector<std::string> options) const {
+    for (const char* seed : {"1,0,0", "-1,0.2,0", "0,1,0.2", "0,-1,0", "0,0,-1", "0.4,0.1,0.9", "-0.3,-0.1,0.9"})
+      options.insert(options.end(), {"--seed", seed});
+    const Result result = run(command(options));
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+
+  std::vector<std::array<Place, 3>> triangles_of(std::size_t tile) const { return triangles_in(path(name(tile))); }
+};
+
+TEST_F(Tiles_of_ball, StillMeetVertexByVertexWhenRefined) {
+  segment({"--refine", "--output", "%_refined.off"});
+  std::size_t added = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const auto whole = triangles_of(t), refined = triangles_in(path("tile_" + std::to_string(t) + "_refined.off"));
+    added += refined.size() - whole.size();
+    EXPECT_EQ(border_of(refined), border_of(whole));
+    EXPECT_NEAR(area_of(refined), area_of(whole), 1e-9);
+  }
+  EXPECT_GT(added, 100U);
+}
+
+TEST_F(Tiles_of_ball, HaveTheLabelsOfFacesAroundWhenRefined) {
+  segment({});
+  const auto before = take_labels();
+  segment({"--refine", "--output", "%_refined.off", "--report", "report.json"});
+  const auto after = take_labels();
+  std::map<std::size_t, std::size_t> faces;
+  std::size_t cut = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const auto whole = triangles_of(t), refined = triangles_in(path("tile_" + std::to_string(t) + "_refined.off"));
+    ASSERT_EQ(after[t].size(), refined.size());
+    for (const std::size_t label : after[t]) ++faces[label];
+    std::map<Place, std::set<std::size_t>> around;  // a smooth boundary stays within an edge's length of the jagged one
+    for (std::size_t f = 0; f < whole.size(); ++f)
+      for (const Place& corner : whole[f]) around[corner].insert(before[t][f]);
+    for (std::size_t f = 0; f < whole.size(); ++f) {
+      cut += refined[f] != whole[f];
+      if (refined[f] != whole[f]) continue;
+      std::set<std::size_t> labels;
+      for (const Place& corner : whole[f]) labels.insert(around[corner].begin(), around[corner].end());
+      EXPECT_EQ(labels.count(after[t][f]), 1U);
+    }
+  }
+  EXPECT_GT(cut, 100U);
+  for (const Json& segment : Json::parse(content_of(path("report.json")))["segments"])
+    EXPECT_EQ(segment["faces"], faces[segment["label"].get<std::size_t>()]);
+}
+
+TEST_F(Tiles_of_ball, HaveBoundariesThatEndAtBordersAndWhereSegmentsMeet) {
+  segment({"--boundaries", "%_jagged.obj"});
+  const auto labels = take_labels();
+  segment({"--smooth", "--boundaries", "%_smooth.obj"});
+  EXPECT_EQ(take_labels(), labels);
+  double jagged_length = 0, smooth_length = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    const std::string tile = path("tile_" + std::to_string(t));
+    const auto jagged = lines_in(tile + "_jagged.obj"), smooth = lines_in(tile + "_smooth.obj");
+    jagged_length += length_of(jagged);
+    smooth_length += length_of(smooth);
+    std::set<Place> on_border;
+    for (const auto& side : border_of(triangles_of(t))) on_border.insert(side.begin(), side.end());
+    for (const auto& lines : {jagged, smooth}) {
+      std::map<Place, std::size_t> ends;
+      for (const auto& line : lines)
+        if (line.front() != line.back())
+          for (const Place& end : {line.front(), line.back()}) ++ends[end];
+      for (const auto& [end, count] : ends) EXPECT_TRUE(count > 2 || on_border.count(end) > 0) << t;
+    }
+  }
+  EXPECT_GT(smooth_length, 0.5 * jagged_length);
+  EXPECT_LT(smooth_length, 0.95 * jagged_length);
+}
+
+TEST_F(Walled_tiles, HaveSmoothBoundariesThatKeepToTheWalls) {
+  ASSERT_EQ(
+      run(command({"--segments", "4", "--constraints", "%.walls", "--smooth", "--boundaries", "%.obj"})).exit_code, 0);
+  std::size_t within_tiles = 0;
+  for (std::size_t t = 0; t < 4; ++t) {
+    std::set<Place> points;
+    for (const auto& line : lines_in(path("tile_" + std::to_string(t) + ".obj")))
+      points.insert(line.begin(), line.end());
+    for (const Edge& edge : walls_) {
+      bool is_at_border = false;
+      for (std::size_t other = 0; other < 4; ++other) is_at_border |= other != t && has(other, edge);
+      if (is_at_border || !has(t, edge)) continue;
+      ++within_tiles;
+      for (const std::size_t v : edge) {
+        const Eigen::Vector3d& p = shape_.points[v];
+        EXPECT_EQ(points.count({p[0], p[1], p[2]}), 1U);
+      }
+    }
+  }
+  EXPECT_GT(within_tiles, 10U);
+}
+
 TEST_F(Tiles, RefuseTheWorkOfOthers) {
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   expect_failure(3, "holds the work on other tiles or with other options",
@@ -295,7 +608,6 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
                                                   {"--seed", "1,2,3", "--segments", "2"},
                                                   {"--seed", "1,2,3", "--probabilities", "%.txt"},
                                                   {"--seeds-file", "%.txt"},
-                                                  {"--refine"},
                                                   {"--html", "a.html"},
                                                   {"--paper"},
                                                   {"--resume"},
@@ -305,7 +617,7 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
                                                   {"--tile-step", "plan", "--tile", "0", "--tile-folder", "w"},
                                                   {"--tile-step", "shape", "--tile-folder", "w"},
                                                   {"--workers", "none"},
-                                                  {"--constraints-angle", "30"},
+                                                  {"--smooth"},
                                                   {"--time-limit", "3"}}) {
     const Result result = run(command(options));
     EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(options) << result.errors;

@@ -143,11 +143,8 @@ inline void check_tiles(const Options& options) {
   refuse(options.sigma.has_value(), "--sigma", reason);
   refuse(options.cap.has_value(), "--cap", reason);
   refuse(options.solver.has_value(), "--solver", reason);
-  refuse(!files.constraints.empty(), "--constraints", reason);
-  refuse(options.constraints_angle.has_value(), "--constraints-angle", reason);
-  refuse(options.is_smooth, "--smooth", reason);
-  refuse(options.is_refined, "--refine", reason);
-  refuse(!files.boundaries.empty(), "--boundaries", reason);
+  refuse(!files.constraints.empty() && !has_placeholder(files.constraints), "--constraints",
+         "vertices have numbers in the file of each tile: give a file for each, with a % for its name");
   refuse(options.are_parts_closed, "--cap-parts", reason);
   refuse(!files.hierarchy.empty(), "--hierarchy", reason);
   refuse(!files.html.empty(), "--html", reason);

@@ -235,7 +235,7 @@ inline void define_command_line(CLI::App& app, Options& options) {
          "--constraints", options.files.constraints,
          "A file of edges that are walls, which no walk, merge or surface crosses: two vertices a line, by their\n"
          "numbers in the file of the mesh, from 0; # starts a comment. After a repair they stand for all edges\n"
-         "between the places of the two.")
+         "between the places of the two. With --tiled, each tile has a file: give a % in the path.")
       ->option_text("FILE")
       ->group("Walls");
   add_number<CLI::ValidationError>(app, "--constraints-angle", options.constraints_angle, angles,

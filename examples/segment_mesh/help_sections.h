@@ -69,10 +69,11 @@ constexpr std::array<Help_section, 8> help_sections = {{
      "With --tiled, the meshes are tiles of one mesh that may be larger than the memory. Segments, labels and the one\n"
      "--report are those of the whole; outputs with % are written for each tile. Seeds are points, each for the "
      "closest\n"
-     "face of all tiles. Workers are processes of their own: one that is killed is started again. A tile that cannot "
-     "be\n"
-     "read is told at the end, and the exit code is 6; the others have their segments. --tile-step does one step, as\n"
-     "Snakemake, Dask and others that share jobs among machines need it; examples/collections has recipes.\n",
+     "face of all tiles. --smooth and --refine leave the borders of tiles as they are. Workers are processes of their\n"
+     "own: one that is killed is started again. A tile that cannot be read is told at the end, and the exit code is "
+     "6;\n"
+     "the others have their segments. --tile-step does one step, as Snakemake, Dask and others that share jobs among\n"
+     "machines need it; examples/collections has recipes.\n",
      false},
     {"Exit codes",
      "  0  success\n"

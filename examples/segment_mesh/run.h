@@ -4,7 +4,6 @@
 #define SEGMENT_MESH_RUN_H
 
 #include "../mesh_files/Polygon_soup.h"
-#include "Boundaries.h"
 #include "Cad_format.h"
 #include "Cad_library.h"
 #include "Options.h"
@@ -21,6 +20,7 @@
 #include "seeds.h"
 #include "segments.h"
 #include "signals.h"
+#include "treat_boundaries.h"
 #include "walls.h"
 
 #include <RW_segmentation/Dual_mesh.h>
@@ -47,20 +47,6 @@ inline std::vector<std::string> remarks_on(const Segmentation& result, bool has_
     remarks.push_back(counted(result.island_faces, "face") + " cut off from the " +
                       (has_seeds ? "seed of their part" : "rest of their fragment") + ", given to the neighbours");
   return remarks;
-}
-
-/// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
-inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
-                             const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
-  if (!options.is_refined && options.files.boundaries.empty()) return;
-  const auto callback = stages.start("boundaries");
-  const Boundary_curves curves =
-      boundary_curves(input.mesh, walls, result.label, options.is_smooth || options.is_refined, callback);
-  files.write_boundaries(curves);
-  if (!options.is_refined) return;
-  cut_boundaries(input.mesh, curves, result);
-  soup = soup_of(input.mesh);
-  input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
 }
 
 /// Makes and writes the CAD files, if any are asked for.

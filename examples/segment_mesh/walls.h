@@ -5,6 +5,7 @@
 
 #include "../mesh_files/Text.h"
 #include "../mesh_files/read_content.h"
+#include "Options.h"
 #include "Oriented_mesh.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,6 +21,14 @@
 #include <vector>
 
 namespace segment_mesh {
+
+/// A degree in radians.
+constexpr double degree = 3.14159265358979323846 / 180;
+
+/// The angle of `--constraints-angle` in radians; infinite without it.
+inline double wall_angle_of(const Options& options) {
+  return options.constraints_angle ? *options.constraints_angle * degree : std::numeric_limits<double>::infinity();
+}
 
 /// An edge that nothing is to cross, as the user gives it.
 struct Constraint {
@@ -93,7 +103,6 @@ inline void mark_constraints(const std::vector<Point>& points, const std::vector
 
 /// Marks the edges over which the normal turns by more than an angle. Beside a face without area none is known.
 inline void mark_sharp_edges(const Mesh& mesh, double degrees, Wall_map walls) {
-  constexpr double degree = 3.14159265358979323846 / 180;
   const double extent = extent_of(mesh);
   if (!(extent > 0)) return;
   std::vector<Mesh_vector> normal;

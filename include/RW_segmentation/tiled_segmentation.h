@@ -49,6 +49,9 @@
 /// seeds but for their place within a cluster, the same walk, the same merging. What differs: normals near a tile's border
 /// see the surface only as far as its neighbours' borders reach. From seeds of the user it is that of `Random_walk`, but for
 /// the clusters that walks run over, with normals of the smoothed shape and `seeded_concavity()`.
+///
+/// Walls are those of the tiles (`Tile::walls`) and, with `Tiled_segmentation::wall_angle`, sharp edges, within tiles and
+/// between them. All steps heed them as `segmentation_via_random_walks()` does.
 
 namespace RW_segmentation {
 
@@ -60,6 +63,8 @@ struct Tiled_segmentation {
   Thickness_sampling thickness;  ///< 0 samples: thickness does not count
   /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
   double tolerance = 0;
+  /// Edges over which the surface turns by more are walls, beside those of the tiles; in radians, infinite: none is.
+  double wall_angle = std::numeric_limits<double>::infinity();
 
   Tiled_segmentation() = default;
   /// For so many segments: with twice as many seeds, 40 at least.
@@ -107,11 +112,12 @@ struct Tile_border {
   /// The id of a vertex that no other tile has.
   static constexpr Dual_mesh::Index none = std::numeric_limits<Dual_mesh::Index>::max();
 
-  std::vector<Eigen::Vector3d> points;  ///< in the unit box
-  std::vector<Dual_mesh::Index> ids;    ///< by point: that of a shared vertex, or `none`
-  internal::Face_corners corners;       ///< by face of the border
-  std::vector<Dual_mesh::Index> faces;  ///< by face of the border: its number in the tile
-  double width = 0;                     ///< how far it reaches from the tile's border, in the unit box
+  std::vector<Eigen::Vector3d> points;                 ///< in the unit box
+  std::vector<Dual_mesh::Index> ids;                   ///< by point: that of a shared vertex, or `none`
+  internal::Face_corners corners;                      ///< by face of the border
+  std::vector<Dual_mesh::Index> faces;                 ///< by face of the border: its number in the tile
+  double width = 0;                                    ///< how far it reaches from the tile's border, in the unit box
+  std::vector<std::array<Dual_mesh::Index, 2>> walls;  ///< those of the tile, by their points
 };
 
 /// How far smoothing turns the normals of a tile: counts, from which medians over all tiles are taken.
@@ -256,6 +262,8 @@ struct Tile_regions {
   std::vector<Learned_cost::Region> regions;                             ///< of these
   std::vector<internal::Boundary_of_regions<Boundary_sums>> boundaries;  ///< between fragments, within the tile
   std::vector<internal::Side_value<Boundary_sums>> sides;                ///< those at its border
+  /// Fragments on the two sides of a wall, which are no neighbours there; the lower one first, rising.
+  std::vector<std::array<Dual_mesh::Index, 2>> walls;
 };
 
 namespace internal {
@@ -273,8 +281,9 @@ Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const 
 }  // namespace internal
 
 /// Looks at a tile by itself.
-/// \throws std::invalid_argument if a point is not finite, a corner is no vertex or ids are not one for each vertex
-/// Complexity: linear.
+/// \throws std::invalid_argument if a point is not finite, a corner is no vertex, ids are not one for each vertex or a wall
+/// is no side of a face
+/// Complexity: linear; O(n log n) for n faces where there are walls.
 Tile_survey survey_tile(const Tile& tile);
 
 /// Finds out where tiles meet.
@@ -297,7 +306,7 @@ Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noi
 /// How noisy the whole is.
 internal::Noise_of_mesh noise_of_tiles(const std::vector<Tile_noise>& tiles);
 
-/// Joins a tile with its neighbours' borders, and smooths its normals.
+/// Joins a tile with its neighbours' borders, finds its walls, and smooths its normals.
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
 /// Complexity: that of `smoothed_face_normals()`.
 /// \throws std::invalid_argument, Cancelled
@@ -379,9 +388,9 @@ namespace internal {
 
 /// A part of the whole, measured as such.
 /// \param points in the unit box
-/// \param[out] turned_sides how many sides lie between faces of which one must be turned inside out
+/// \param is_wall by edge, in the order of `Joined_faces`; empty: no edge is
 Dual_mesh part_of(const Tile_plan& plan, Face_corners corners, std::vector<Eigen::Vector3d> points,
-                  std::size_t* turned_sides = nullptr);
+                  std::vector<char> is_wall);
 
 /// The boundaries between all fragments, sorted by these.
 std::vector<Boundary_of_regions<Tile_regions::Boundary_sums>> boundaries_of_tiles(

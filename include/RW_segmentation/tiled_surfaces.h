@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 /// \file
@@ -45,6 +46,8 @@ struct Tiled_surfaces {
   double halo = 8;
   /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
   double tolerance = 0;
+  /// Edges over which the surface turns by more are walls, beside those of the tiles; in radians, infinite: none is.
+  double wall_angle = std::numeric_limits<double>::infinity();
 };
 
 /// Faces of a tile or its halo by themselves.
@@ -71,6 +74,7 @@ struct Tile_surfaces {
   struct Side_sums {
     Edge_sums edge;          ///< as merging sums it up
     bool is_smooth = false;  ///< whether a free form goes on there
+    bool is_wall = false;    ///< whether nothing does
   };
 
   std::vector<double> areas;                ///< by region: of its faces in the tile, as a part of the whole
@@ -78,13 +82,15 @@ struct Tile_surfaces {
   std::vector<Dual_mesh::Index> region_of;  ///< by sample
   std::vector<internal::Boundary_of_regions<Edge_sums>> boundaries;  ///< between regions, within the tile
   std::vector<internal::Side_value<Side_sums>> sides;                ///< those at its border
+  /// Regions on the two sides of a wall in the tile; the lower one first, rising.
+  std::vector<std::array<Dual_mesh::Index, 2>> walls;
   std::size_t turned_sides = 0;  ///< sides between faces of which one must be turned inside out
 };
 
 /// The regions of all tiles, joined where the same surface goes on.
 struct Merged_surfaces {
   std::vector<std::vector<Dual_mesh::Index>> fragments;     ///< by tile and region of it
-  std::vector<std::array<Dual_mesh::Index, 2>> neighbours;  ///< fragments that meet, the lower one first
+  std::vector<std::array<Dual_mesh::Index, 2>> neighbours;  ///< fragments that meet, or have a wall between them
   Merge_tree tree;                                          ///< of the fragments
   std::size_t turned_sides = 0;                             ///< sides at which two tiles are not oriented alike
 };
@@ -130,7 +136,7 @@ std::vector<Dual_mesh::Index> surfaces_of_tile(const Tile& tile, const Tile_in_p
                                                const std::vector<Tile_border>& neighbours, const Surface_noise& noise,
                                                Tile_surfaces& surfaces, const Progress& progress = {}) {
   return internal::with_threads<ConcurrencyTag>(
-      [&] { return internal::surfaces_of_tile(tile, place, neighbours, noise, surfaces, progress); });
+      [&] { return internal::surfaces_of_tile(tile, place, neighbours, noise, surfaces, options, progress); });
 }
 
 /// Joins the free forms that meet smoothly between tiles, and merges all regions by `Analytic_surface_cost`. Merging is best

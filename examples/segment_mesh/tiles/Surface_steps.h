@@ -5,6 +5,7 @@
 
 #include "../Options.h"
 #include "../surfaces.h"
+#include "../walls.h"
 #include "Tile_folder.h"
 #include "Tile_segments.h"
 #include "Tile_step.h"
@@ -70,9 +71,11 @@ class Surface_steps {
   void surfaces(std::size_t tile) const {
     const auto plan = read_plan();
     RW::Tile_surfaces regions;
+    RW::Tiled_surfaces method;
+    method.wall_angle = wall_angle_of(options_);
     const auto fragments = RW::surfaces_of_tile(folder_.read<RW::Tile>("tile", tile), {tile, plan},
                                                 folder_.read_neighbours<RW::Tile_border>("border", plan, tile),
-                                                folder_.read<RW::Surface_noise>("noise_of_all"), regions);
+                                                folder_.read<RW::Surface_noise>("noise_of_all"), regions, method);
     folder_.write_of_tile(tile, "fragments", fragments);
     folder_.write_of_tile(tile, "regions", regions);
   }

@@ -6,11 +6,15 @@
 #include "../Options.h"
 #include "../Oriented_mesh.h"
 #include "../Output_files.h"
+#include "../Stages.h"
 #include "../Task.h"
 #include "../failure.h"
 #include "../read_input.h"
 #include "../report.h"
 #include "../segments.h"
+#include "../signals.h"
+#include "../treat_boundaries.h"
+#include "../walls.h"
 #include "Surface_steps.h"
 #include "Tile_folder.h"
 #include "Tile_segments.h"
@@ -75,14 +79,18 @@ class Tile_steps {
     for (const char* file : step.files) std::filesystem::remove(path(step, file, tile));
   }
 
-  /// Whether a tile has changed since it was surveyed.
+  /// Whether a tile has changed since it was surveyed, or its walls.
   bool has_changed(std::size_t tile) const {
     namespace fs = std::filesystem;
     std::error_code error;
     const auto of_survey = fs::last_write_time(folder_.path("survey", tile), error);
     if (error) return false;
-    const auto of_tile = fs::last_write_time(tasks_[tile].mesh, error);
-    return error || of_tile > of_survey;
+    const auto is_newer = [&](const std::string& path) {
+      const auto time = fs::last_write_time(path, error);
+      return error || time > of_survey;
+    };
+    const std::string& walls = tasks_[tile].files.constraints;
+    return is_newer(tasks_[tile].mesh) || (!walls.empty() && is_newer(walls));
   }
 
   /// The seeds of the user in words, which the steps from `places` on depend on.
@@ -92,6 +100,8 @@ class Tile_steps {
   std::string parameters() const {
     Json parameters = {{"tiles", Json::array()},
                        {"tolerance", tolerance()},
+                       {"walls", options_.files.constraints},
+                       {"wall_angle", wall_angle_of(options_)},
                        {"stitch", options_.repairs.stitch},
                        {"orient", options_.repairs.orient},
                        {"version", version()}};
@@ -122,6 +132,9 @@ class Tile_steps {
     return options_.is_engineering ? segment : walk_.label_of(segment);
   }
 
+  /// The segment that has a label.
+  std::size_t segment_of(std::size_t label) const { return options_.is_engineering ? label : walk_.segment_of(label); }
+
   std::string path(const Tile_step& step, const char* file, std::size_t tile) const {
     return step.is_of_each_tile ? folder_.path(file, tile) : folder_.path(file);
   }
@@ -133,17 +146,33 @@ class Tile_steps {
     return failure;
   }
 
+  /// A tile as it is in its file, and repaired: each time in the same way.
+  Oriented_mesh read_tile(std::size_t tile, mesh_files::Polygon_soup& soup) const {
+    soup = read_input(tasks_[tile].mesh, options_.format);
+    refuse_mesh_without_faces(tasks_[tile].mesh, soup);
+    Oriented_mesh input = oriented_mesh(soup, options_.repairs);
+    refuse_mesh_without_faces(tasks_[tile].mesh, input);
+    return input;
+  }
+
+  /// The walls that a file names for a tile.
+  Wall_map named_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
+    const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+    const std::string& path = tasks_[tile].files.constraints;
+    if (!path.empty()) mark_constraints(soup.points, read_constraints(path), mesh, walls);
+    return walls;
+  }
+
   void survey(std::size_t tile) const {
     RW::Tile arrays;
     std::vector<Index> tile_faces;      // by face of the file that is written
     std::vector<std::size_t> left_out;  // faces of the file
     std::string failure;
     try {
-      const mesh_files::Polygon_soup soup = read_input(tasks_[tile].mesh, options_.format);
-      refuse_mesh_without_faces(tasks_[tile].mesh, soup);
-      const Oriented_mesh input = oriented_mesh(soup, options_.repairs);
-      refuse_mesh_without_faces(tasks_[tile].mesh, input);
-      RW::Tile_of<Mesh> tile_of_mesh(input.mesh);
+      mesh_files::Polygon_soup soup;
+      Oriented_mesh input = read_tile(tile, soup);
+      const Wall_map walls = named_walls(tile, soup, input.mesh);
+      RW::Tile_of<Mesh> tile_of_mesh(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
       std::vector<Index> number(input.mesh.number_of_faces());
       for (Index f = 0; f < number.size(); ++f) number[tile_of_mesh.face_descriptors[f]] = f;
       for (const auto face : faces_in_file_order(soup, input)) tile_faces.push_back(number[face]);
@@ -161,26 +190,59 @@ class Tile_steps {
 
   void plan() const { folder_.write("plan", RW::plan_tiles(folder_.read_all<RW::Tile_survey>("survey"), tolerance())); }
 
+  /// What is written of a tile.
+  struct Labelled_tile {
+    mesh_files::Polygon_soup soup;
+    std::vector<Mesh::Face_index> faces;  ///< by face of the soup: that of the result which speaks for it
+    Segmentation result;
+  };
+
+  /// A tile as it is in its file.
+  /// \param tile_faces by face of the file: its number in the tile
+  /// \param label by face of the tile
+  Labelled_tile labelled_file(std::size_t tile, const std::vector<Index>& tile_faces,
+                              std::vector<std::size_t> label) const {
+    Labelled_tile labelled;
+    labelled.soup = read_input(tasks_[tile].mesh, options_.format);
+    for (const Index face : tile_faces) labelled.faces.emplace_back(face);
+    labelled.result.label = std::move(label);
+    return labelled;
+  }
+
+  /// A tile with its boundaries smoothed and cut into it, as far as asked for.
+  /// \param label by face of the tile
+  Labelled_tile with_boundaries(std::size_t tile, const std::vector<std::size_t>& label, Output_files& files) const {
+    Labelled_tile labelled;
+    Oriented_mesh input = read_tile(tile, labelled.soup);
+    const Wall_map walls = named_walls(tile, labelled.soup, input.mesh);
+    if (options_.constraints_angle) mark_sharp_edges(input.mesh, *options_.constraints_angle, walls);
+    labelled.result.label.resize(label.size());
+    const RW::Tile_of<Mesh> numbered(input.mesh);
+    for (Index f = 0; f < label.size(); ++f) labelled.result.label[numbered.face_descriptors[f]] = label[f];
+    Stages without_bar(false, "", is_interrupted, Deadline({}));
+    treat_boundaries(options_, labelled.soup, input, walls, labelled.result, without_bar, files);
+    labelled.faces = faces_in_file_order(labelled.soup, input);
+    return labelled;
+  }
+
   void labels(std::size_t tile) const {
     const auto all = folder_.read<Tile_segments>("segments");
     std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
     if (failure_of(tile).empty()) {
       Output_files files(tasks_[tile].files, options_);
       std::vector<Index> tile_faces;
-      std::vector<std::size_t> left_out;
+      std::vector<std::size_t> left_out, label;
       folder_.read_of_tile_into(tile, "file_faces", tile_faces, left_out);
-      const auto fragments = folder_.read<std::vector<Index>>("fragments", tile);
-      Segmentation result;
-      for (const Index fragment : fragments) result.label.push_back(label_of(all.segment(tile, fragment)));
-      std::vector<Mesh::Face_index> faces;  // those of the tile: no output that tiles have asks a mesh for more
-      for (const Index face : tile_faces) {
-        faces.emplace_back(face);
-        ++faces_of_segment[all.segment(tile, fragments.at(face))];
-      }
+      for (const Index fragment : folder_.read<std::vector<Index>>("fragments", tile))
+        label.push_back(label_of(all.segment(tile, fragment)));
+      const Labelled_tile labelled = treats_boundaries(options_) ? with_boundaries(tile, label, files)
+                                                                 : labelled_file(tile, tile_faces, std::move(label));
       std::vector<Segment> segments;
       for (std::size_t s = 0; s < all.area.size(); ++s)
-        if (faces_of_segment[s] > 0) segments.push_back({label_of(s), faces_of_segment[s], all.area[s], all.colors[s]});
-      files.write(read_input(tasks_[tile].mesh, options_.format), nullptr, faces, result, segments);
+        segments.push_back({label_of(s), 0, all.area[s], all.colors[s]});
+      segments = counted_in_file(std::move(segments), in_file_order(labelled.faces, labelled.result.label));
+      for (const Segment& segment : segments) faces_of_segment[segment_of(segment.label)] = segment.faces;
+      files.write(labelled.soup, nullptr, labelled.faces, labelled.result, segments);
       files.write_left_out(left_out);
       files.commit({});
     }

@@ -8,6 +8,7 @@
 #include "../check_options.h"
 #include "../seeds.h"
 #include "../surfaces.h"
+#include "../walls.h"
 #include "Tile_folder.h"
 #include "Tile_segments.h"
 #include "Tile_step.h"
@@ -18,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <set>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -33,6 +35,7 @@ class Walk_steps {
     take_seeds();
     if (options.smoothing) method_.smoothing.radius = *options.smoothing;
     if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
+    method_.wall_angle = wall_angle_of(options);
     if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
   }
 
@@ -62,6 +65,13 @@ class Walk_steps {
   std::size_t label_of(std::size_t segment) const {
     if (labels_.empty()) return segment;
     return segment < labels_.size() ? labels_[segment] : labels_.back() + 1 + segment - labels_.size();
+  }
+
+  /// The segment that has a label.
+  std::size_t segment_of(std::size_t label) const {
+    if (labels_.empty()) return label;
+    if (label > labels_.back()) return labels_.size() + label - labels_.back() - 1;
+    return static_cast<std::size_t>(std::lower_bound(labels_.begin(), labels_.end(), label) - labels_.begin());
   }
 
   /// Adds what is known at the end.
@@ -114,12 +124,15 @@ class Walk_steps {
                           folder_.read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
     RW::internal::Face_corners corners;
     std::vector<Eigen::Vector3d> normals;
+    std::vector<char> is_wall;
+    for (Index e = 0; shape.mesh.has_walls() && e < shape.mesh.number_of_edges(); ++e)
+      is_wall.push_back(shape.mesh.is_wall(e));
     for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
       for (const auto v : shape.mesh.corners(f)) corners.add(v);
       corners.end_face();
       normals.push_back(shape.mesh.shape_normal(f));
     }
-    folder_.write_of_tile(tile, "shape", corners, shape.mesh.points(), normals, shape.own_faces, shape.halo,
+    folder_.write_of_tile(tile, "shape", corners, shape.mesh.points(), normals, is_wall, shape.own_faces, shape.halo,
                           shape.shared_edges);
     folder_.write_of_tile(tile, "outline", outline);
   }
@@ -128,9 +141,11 @@ class Walk_steps {
     RW::Tile_shape shape;
     RW::internal::Face_corners corners;
     std::vector<Eigen::Vector3d> points, normals;
-    folder_.read_of_tile_into(tile, "shape", corners, points, normals, shape.own_faces, shape.halo, shape.shared_edges);
-    shape.mesh =
-        RW::internal::part_of(plan, std::move(corners), std::move(points)).with_shape_normals(std::move(normals));
+    std::vector<char> is_wall;
+    folder_.read_of_tile_into(tile, "shape", corners, points, normals, is_wall, shape.own_faces, shape.halo,
+                              shape.shared_edges);
+    shape.mesh = RW::internal::part_of(plan, std::move(corners), std::move(points), std::move(is_wall))
+                     .with_shape_normals(std::move(normals));
     return shape;
   }
 
@@ -190,7 +205,9 @@ class Walk_steps {
     std::vector<double> areas(walk.number_of_fragments, 0.);
     for (const RW::Tile_regions& tile : regions)
       for (std::size_t i = 0; i < tile.fragments.size(); ++i) areas[tile.fragments[i]] += tile.regions[i].size.area;
-    std::vector<std::array<Index, 2>> neighbours;
+    std::vector<std::array<Index, 2>> neighbours;  // across walls as well: their colours must differ
+    for (const RW::Tile_regions& tile : regions)
+      neighbours.insert(neighbours.end(), tile.walls.begin(), tile.walls.end());
     for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) neighbours.push_back(boundary.regions);
     const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : walk.number_of_fragments;
     Tile_segments segments = tile_segments(tree, options_.segments.value_or(suggested), areas, neighbours);

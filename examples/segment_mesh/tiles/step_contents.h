@@ -34,6 +34,7 @@ void transfer(Archive& a, Tile& x) {
   a(x.points);
   a(x.corners);
   a(x.vertex_ids);
+  a(x.walls);
 }
 
 template <class Archive>
@@ -75,6 +76,7 @@ void transfer(Archive& a, Tile_border& x) {
   a(x.corners);
   a(x.faces);
   a(x.width);
+  a(x.walls);
 }
 
 template <class Archive>
@@ -165,6 +167,7 @@ void transfer(Archive& a, Tile_regions& x) {
   a(x.regions);
   a(x.boundaries);
   a(x.sides);
+  a(x.walls);
 }
 
 template <class Archive>
@@ -195,6 +198,7 @@ template <class Archive>
 void transfer(Archive& a, Tile_surfaces::Side_sums& x) {
   a(x.edge);
   a(x.is_smooth);
+  a(x.is_wall);
 }
 
 template <class Archive>
@@ -204,6 +208,7 @@ void transfer(Archive& a, Tile_surfaces& x) {
   a(x.region_of);
   a(x.boundaries);
   a(x.sides);
+  a(x.walls);
   a(x.turned_sides);
 }
 

@@ -61,7 +61,21 @@ inline std::vector<double> thickness_in(const Tile_shape& shape, std::size_t num
   return thickness;
 }
 
-/// Sums over the regions of a tile and the edges between them.
+/// The fragments on the two sides of the walls of a tile.
+inline std::vector<std::array<Dual_mesh::Index, 2>> fragments_beside_walls(const Tile_shape& shape,
+                                                                           const std::vector<std::size_t>& fragment) {
+  using Index = Dual_mesh::Index;
+  std::set<std::array<Index, 2>> pairs;
+  for (Index e = 0; shape.mesh.has_walls() && e < shape.mesh.number_of_edges(); ++e) {
+    const auto [f, g] = shape.mesh.graph().faces_of(e);
+    if (!shape.mesh.is_wall(e) || std::min(f, g) >= shape.own_faces || fragment[f] == fragment[g]) continue;
+    const auto [a, b] = std::minmax(fragment[f], fragment[g]);
+    pairs.insert({static_cast<Index>(a), static_cast<Index>(b)});
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+/// Sums over the regions of a tile and the edges between them that are no walls.
 inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const std::vector<std::size_t>& fragment,
                            const Learned_cost& cost, const std::vector<double>& difference) {
   using Index = Dual_mesh::Index;
@@ -81,16 +95,18 @@ inline Tile_regions sum_up(const Tile_shape& shape, std::size_t number, const st
   std::map<std::array<Index, 2>, Tile_regions::Boundary_sums> boundaries;
   for (Index e = 0; e < mesh.number_of_edges(); ++e) {
     const auto [f, g] = mesh.graph().faces_of(e);
-    if (f >= shape.own_faces || g >= shape.own_faces || fragment[f] == fragment[g]) continue;
+    if (f >= shape.own_faces || g >= shape.own_faces || fragment[f] == fragment[g] || mesh.is_wall(e)) continue;
     const auto [a, b] = std::minmax(fragment[f], fragment[g]);
     boundaries[{static_cast<Index>(a), static_cast<Index>(b)}] += sums_of(e);
   }
   for (const auto& [fragments, common] : boundaries) result.boundaries.push_back({fragments, common});
   for (const auto& shared : shape.shared_edges) {
+    if (mesh.is_wall(shared.edge)) continue;
     const bool is_owner = number < shared.neighbour;
     result.sides.push_back({shared.side, static_cast<Index>(fragment[own_face(shape, shared)]), 0,
                             is_owner ? sums_of(shared.edge) : Tile_regions::Boundary_sums(), is_owner});
   }
+  result.walls = fragments_beside_walls(shape, fragment);
   return result;
 }
 

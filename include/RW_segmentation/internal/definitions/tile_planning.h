@@ -6,6 +6,7 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/check_number.h>
 #include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/tiles/Edge_set.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
@@ -49,6 +50,18 @@ inline void check_tile(const Tile& tile) {
                                 std::to_string(vertices) + " vertices");
 }
 
+/// \throws std::invalid_argument if a wall is no side of a face
+inline void check_walls(const Tile& tile, const Joined_faces& joined) {
+  if (tile.walls.empty()) return;
+  std::vector<std::array<Dual_mesh::Index, 2>> ends = joined.ends;
+  ends.insert(ends.end(), joined.open_ends.begin(), joined.open_ends.end());
+  const Edge_set sides(std::move(ends));
+  for (const auto& wall : tile.walls)
+    if (!sides.contains(wall))
+      throw std::invalid_argument("a wall joins vertices " + std::to_string(wall[0]) + " and " +
+                                  std::to_string(wall[1]) + ", between which no face has a side");
+}
+
 /// The area of a face, as a fan about its first corner.
 inline double area_of(const Face_corners::Range& corners, const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -68,7 +81,9 @@ RW_SEGMENTATION_INLINE Tile_survey survey_tile(const Tile& tile) {
     survey.area += internal::area_of(tile.corners[f], tile.points);
     for (const auto v : tile.corners[f]) survey.box.extend(tile.points[v]);
   }
-  for (const auto& [from, to] : internal::Joined_faces(tile.corners, tile.points.size()).open_ends) {
+  const internal::Joined_faces joined(tile.corners, tile.points.size());
+  internal::check_walls(tile, joined);
+  for (const auto& [from, to] : joined.open_ends) {
     survey.border_vertices.push_back(from);
     survey.border_vertices.push_back(to);
   }

@@ -5,14 +5,17 @@
 
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/feature_sensitive_seeds.h>
+#include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/seeds/Distance_clusters.h>
 #include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
+#include <RW_segmentation/internal/tiles/Edge_set.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -35,18 +38,20 @@ inline std::vector<Eigen::Vector3d> points_in_box(const Tile& tile, const Unit_b
   return points;
 }
 
-RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners corners,
-                                         std::vector<Eigen::Vector3d> points, std::size_t* turned_sides) {
-  Joined_faces joined(corners, points.size());
-  if (turned_sides) *turned_sides = joined.turned_sides;
+/// As below, of faces that are joined already.
+inline Dual_mesh part_of_joined_faces(const Tile_plan& plan, Face_corners corners, std::vector<Eigen::Vector3d> points,
+                                      Joined_faces joined, std::vector<char> is_wall) {
   const std::size_t faces = corners.number_of_faces();
-  return Dual_mesh({Dual_graph(faces, std::move(joined.sides)),
-                    std::move(corners),
-                    std::move(joined.ends),
-                    std::move(points),
-                    {}},
+  return Dual_mesh({Dual_graph(faces, std::move(joined.sides)), std::move(corners), std::move(joined.ends),
+                    std::move(points), std::move(is_wall)},
                    &plan.box)
       .as_part_of(plan.total_area);
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners corners,
+                                         std::vector<Eigen::Vector3d> points, std::vector<char> is_wall) {
+  Joined_faces joined(corners, points.size());
+  return part_of_joined_faces(plan, std::move(corners), std::move(points), std::move(joined), std::move(is_wall));
 }
 
 // ---- The border that neighbours see ----
@@ -87,9 +92,9 @@ inline double width_of_border(const Tile_plan& plan, const Normal_smoothing& smo
   return smoothing_lengths * widening * smoothing.radius * std::sqrt(plan.total_area);
 }
 
-/// The faces of a tile up to a distance from the vertices that it shares.
+/// The faces of a tile up to a distance from the vertices that it shares, and the walls between them.
 inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared,
-                        Tile_border& border) {
+                        const std::vector<std::array<Dual_mesh::Index, 2>>& walls, Tile_border& border) {
   using Index = Dual_mesh::Index;
   std::vector<Index> id(mesh.number_of_vertices(), Tile_border::none);
   for (const auto& [vertex, number] : shared) id[vertex] = number;
@@ -113,6 +118,9 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
     }
     border.corners.end_face();
   }
+  for (const auto& [u, v] : walls)
+    if (number[u] != Tile_border::none && number[v] != Tile_border::none)
+      border.walls.push_back({number[u], number[v]});
 }
 
 }  // namespace internal
@@ -121,7 +129,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
                                                             Tile_noise& noise, const Tiled_segmentation& options,
                                                             const Progress& progress) {
   const auto& [number, plan] = place;
-  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
+  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), {});
   Tile_border border;
   double widening = 1;
   if (mesh.number_of_faces() > 0) {
@@ -130,7 +138,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
     widening = internal::widening_by_noise(noise_of_tiles({noise}), options.smoothing);
   }
   border.width = internal::width_of_border(plan, options.smoothing, std::max(widening, 1.));
-  internal::take_border(mesh, plan.tiles[number].shared_vertices, border);
+  internal::take_border(mesh, plan.tiles[number].shared_vertices, tile.walls, border);
   return border;
 }
 
@@ -147,23 +155,32 @@ namespace internal {
 
 // ---- A tile with its halo ----
 
-/// Collects the faces of a tile and those of its neighbours' borders that lie near enough.
+/// Collects the faces of a tile and those of its neighbours' borders that lie near enough, and the walls between all of
+/// them.
 class Tile_surroundings {
  public:
   using Index = Dual_mesh::Index;
 
-  Tile_surroundings(const Tile& tile, const Tile_plan& plan, std::size_t number,
-                    const std::vector<Tile_border>& neighbours)
-      : plan_(plan), number_(number), points_(points_in_box(tile, plan.box)) {
+  /// \param wall_angle see `Tiled_segmentation`
+  Tile_surroundings(const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours,
+                    double wall_angle)
+      : plan_(place.plan),
+        number_(place.number),
+        wall_angle_(wall_angle),
+        points_(points_in_box(tile, place.plan.box)) {
     take_faces(tile);
-    add_halo(neighbours);
+    add_halo(glued(neighbours));
   }
 
   /// \param[out] turned_sides sides at which two tiles are not oriented alike
   Tile_shape shape(std::size_t& turned_sides) {
     Tile_shape shape;
     shape.own_faces = corners_.number_of_faces() - halo_.size();
-    shape.mesh = part_of(plan_, std::move(corners_), std::move(points_), &turned_sides);
+    Joined_faces joined(corners_, points_.size());
+    turned_sides = joined.turned_sides;
+    std::vector<char> is_wall = walls_of(joined);
+    shape.mesh =
+        part_of_joined_faces(plan_, std::move(corners_), std::move(points_), std::move(joined), std::move(is_wall));
     shape.halo = std::move(halo_);
     std::unordered_map<Index, Index> id_of_vertex;
     for (const auto& [vertex, id] : plan_.tiles[number_].shared_vertices) id_of_vertex.emplace(vertex, id);
@@ -189,58 +206,107 @@ class Tile_surroundings {
       for (const Index v : tile.corners[f]) corners_.add(number[v]);
       corners_.end_face();
     }
+    for (const auto& [u, v] : tile.walls) walls_.push_back({number[u], number[v]});
+    add_normals(tile.corners, points_, normals_);
   }
 
-  void add_halo(const std::vector<Tile_border>& neighbours) {
-    // All border faces of all neighbours, glued together.
+  /// All border faces of all neighbours, glued together.
+  struct Glued_borders {
     Face_corners corners;
+    std::vector<Eigen::Vector3d> points;  ///< those of the tile, then those of the borders
     std::vector<Tile_shape::Halo_face> faces;
-    std::vector<Eigen::Vector3d> points = points_;
-    std::vector<Index> sources;
-    double width = 0;
+    std::vector<Eigen::Vector3d> normals;     ///< by face, where sharp edges are walls
+    std::vector<std::array<Index, 2>> walls;  ///< by their vertices
+    std::vector<Index> sources;               ///< faces that touch the tile
+    double width = 0;                         ///< of the widest border
+  };
+
+  Glued_borders glued(const std::vector<Tile_border>& neighbours) {
+    Glued_borders borders;
+    borders.points = points_;
     for (std::size_t n = 0; n < neighbours.size(); ++n) {
       const Tile_border& border = neighbours[n];
-      width = std::max(width, border.width);
+      borders.width = std::max(borders.width, border.width);
       std::vector<Index> vertex(border.points.size());
-      for (std::size_t p = 0; p < vertex.size(); ++p) vertex[p] = vertex_of(border, p, points);
+      for (std::size_t p = 0; p < vertex.size(); ++p) vertex[p] = vertex_of(border, p, borders.points);
       for (Index f = 0; f < border.corners.number_of_faces(); ++f) {
         for (const Index p : border.corners[f]) {
-          corners.add(vertex[p]);
-          if (vertex[p] < points_.size()) sources.push_back(static_cast<Index>(faces.size()));
+          borders.corners.add(vertex[p]);
+          if (vertex[p] < points_.size()) borders.sources.push_back(static_cast<Index>(borders.faces.size()));
         }
-        corners.end_face();
-        faces.push_back({plan_.tiles[number_].neighbours[n], f});
+        borders.corners.end_face();
+        borders.faces.push_back({plan_.tiles[number_].neighbours[n], f});
       }
+      for (const auto& [p, q] : border.walls) borders.walls.push_back({vertex[p], vertex[q]});
+      add_normals(border.corners, border.points, borders.normals);
     }
-    if (sources.empty()) return;
+    return borders;
+  }
 
-    Joined_faces joined(corners, points.size());
-    const Dual_graph graph(faces.size(), std::move(joined.sides));
+  /// The faces of the borders that lie near the tile, rising.
+  static std::vector<Index> near_faces(const Glued_borders& borders) {
+    Joined_faces joined(borders.corners, borders.points.size());
+    const Dual_graph graph(borders.faces.size(), std::move(joined.sides));
     std::vector<Eigen::Vector3d> centroid;
-    for (Index f = 0; f < faces.size(); ++f) {
+    for (Index f = 0; f < borders.faces.size(); ++f) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const Index v : corners[f]) sum += points[v];
-      centroid.push_back(sum / static_cast<double>(corners[f].size()));
+      for (const Index v : borders.corners[f]) sum += borders.points[v];
+      centroid.push_back(sum / static_cast<double>(borders.corners[f].size()));
     }
-    std::vector<Index> near =
-        faces_within(graph, sources, width, [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
+    std::vector<Index> near = faces_within(graph, borders.sources, borders.width,
+                                           [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
     std::sort(near.begin(), near.end());
+    return near;
+  }
 
-    std::unordered_map<Index, Index> taken;
-    const std::size_t own_points = points_.size();
-    for (const Index f : near) {
-      for (const Index v : corners[f]) {
-        Index number = v;
-        if (v >= own_points) {
-          const auto [place, is_new] = taken.emplace(v, static_cast<Index>(points_.size()));
-          if (is_new) points_.push_back(points[v]);
-          number = place->second;
+  void add_halo(const Glued_borders& borders) {
+    if (borders.sources.empty()) return;
+    std::vector<Index> number(borders.points.size(), Tile_border::none);  // of the points that are taken
+    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(points_.size()), Index(0));
+    for (const Index f : near_faces(borders)) {
+      for (const Index v : borders.corners[f]) {
+        if (number[v] == Tile_border::none) {
+          number[v] = static_cast<Index>(points_.size());
+          points_.push_back(borders.points[v]);
         }
-        corners_.add(number);
+        corners_.add(number[v]);
       }
       corners_.end_face();
-      halo_.push_back(faces[f]);
+      halo_.push_back(borders.faces[f]);
+      if (has_wall_angle()) normals_.push_back(borders.normals[f]);
     }
+    for (const auto& [u, v] : borders.walls)
+      if (number[u] != Tile_border::none && number[v] != Tile_border::none) walls_.push_back({number[u], number[v]});
+  }
+
+  // ---- Walls ----
+
+  bool has_wall_angle() const { return std::isfinite(wall_angle_); }
+
+  /// Adds the normals of faces, where sharp edges are walls. Each face is measured with the points of its own tile, which
+  /// may lie apart from those of its neighbours: so all tiles find the same walls.
+  void add_normals(const Face_corners& corners, const std::vector<Eigen::Vector3d>& points,
+                   std::vector<Eigen::Vector3d>& normals) const {
+    if (!has_wall_angle()) return;
+    for (Index f = 0; f < corners.number_of_faces(); ++f)
+      normals.push_back(measures_of(points, corners[f], plan_.box.rounding).normal);
+  }
+
+  /// Which edges are walls; empty if none can be.
+  std::vector<char> walls_of(const Joined_faces& joined) const {
+    std::vector<char> is_wall;
+    if (walls_.empty() && !has_wall_angle()) return is_wall;
+    const Edge_set given(walls_);
+    is_wall.reserve(joined.sides.size());
+    for (std::size_t e = 0; e < joined.sides.size(); ++e)
+      is_wall.push_back(given.contains(joined.ends[e]) || (has_wall_angle() && is_sharp(joined.sides[e])));
+    return is_wall;
+  }
+
+  /// Beside a face without area, whose normal is zero, no edge is.
+  bool is_sharp(const std::array<Index, 2>& faces) const {
+    const Eigen::Vector3d &a = normals_[faces[0]], &b = normals_[faces[1]];
+    return std::atan2(a.cross(b).norm(), a.dot(b)) > wall_angle_;
   }
 
   /// The vertex that a point of a neighbour's border is: one of the tile, or a new one.
@@ -256,8 +322,11 @@ class Tile_surroundings {
 
   const Tile_plan& plan_;
   std::size_t number_;
-  Face_corners corners_;  // of the tile, then of its halo
+  double wall_angle_;
+  Face_corners corners_;                  // of the tile, then of its halo
+  std::vector<Eigen::Vector3d> normals_;  // by face, where sharp edges are walls
   std::vector<Eigen::Vector3d> points_;
+  std::vector<std::array<Index, 2>> walls_;  // those given, by their vertices
   std::vector<Tile_shape::Halo_face> halo_;
   std::unordered_map<Index, Index> vertex_of_id_;
 };
@@ -335,6 +404,7 @@ inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std:
   outline.edges = std::move(clusters.ends);
   outline.lengths = std::move(clusters.lengths);
   for (const auto& shared : shape.shared_edges) {
+    if (shape.mesh.is_wall(shared.edge)) continue;
     const auto f = own_face(shape, shared);
     const bool is_owner = number < shared.neighbour;
     outline.sides.push_back(
@@ -349,10 +419,11 @@ RW_SEGMENTATION_INLINE Shaped_tile internal::shape_of_tile(const Tile& tile, con
                                                            const internal::Noise_of_mesh& noise,
                                                            const Tiled_segmentation& options,
                                                            const Progress& progress) {
+  if (!(options.wall_angle >= 0)) throw internal::argument_error("wall_angle", options.wall_angle, "not negative");
   const auto& [number, plan] = place;
   Shaped_tile result;
   auto& [shape, outline] = result;
-  shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(outline.turned_sides);
+  shape = internal::Tile_surroundings(tile, place, neighbours, options.wall_angle).shape(outline.turned_sides);
   shape.mesh = internal::shape_of_part(shape.mesh, options.smoothing, noise, progress.part(0, 0.8));
   const internal::Own_graph own(shape);
   outline.turns = internal::turn_sums(shape, own, number);

@@ -24,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -74,7 +75,7 @@ Dual_mesh mesh_of_samples(const Tile_plan& plan, const std::vector<OfTile>& tile
     points.insert(points.end(), samples.points.begin(), samples.points.end());
     check_number(points.size(), "samples of surfaces");
   }
-  return part_of(plan, std::move(corners), std::move(points));
+  return part_of(plan, std::move(corners), std::move(points), {});
 }
 
 /// Takes the faces that an estimate of the noise looks at.
@@ -106,11 +107,11 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
   if (!(options.halo >= 0) || !std::isfinite(options.halo))
     throw internal::argument_error("halo", options.halo, "a finite number >= 0");
   const auto& [number, plan] = place;
-  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box));
+  const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), {});
   neighbourhoods = internal::neighbourhoods_in(mesh, plan.faces);
   Tile_border border;
   border.width = options.halo * mesh.mean_edge_length();
-  internal::take_border(mesh, plan.tiles[number].shared_vertices, border);
+  internal::take_border(mesh, plan.tiles[number].shared_vertices, tile.walls, border);
   progress(1);
   return border;
 }
@@ -190,20 +191,27 @@ inline void take_boundaries(const Tile_shape& shape, std::size_t number, const R
     return {length, length * sharpness[e]};
   };
   std::map<std::array<Index, 2>, Edge_sums> boundaries;
+  std::set<std::array<Index, 2>> walls;
   for (Index e = 0; e < mesh.number_of_edges(); ++e) {
     const auto [f, g] = mesh.graph().faces_of(e);
-    if (f >= shape.own_faces || g >= shape.own_faces || mesh.is_wall(e)) continue;
+    if (f >= shape.own_faces || g >= shape.own_faces) continue;
     const auto [a, b] = std::minmax(regions.region_of_face[f], regions.region_of_face[g]);
-    if (a != b) boundaries[{static_cast<Index>(a), static_cast<Index>(b)}] += sums_of(e);
+    if (a == b) continue;
+    const std::array<Index, 2> pair = {static_cast<Index>(a), static_cast<Index>(b)};
+    if (mesh.is_wall(e))
+      walls.insert(pair);
+    else
+      boundaries[pair] += sums_of(e);
   }
+  surfaces.walls.assign(walls.begin(), walls.end());
   for (const auto& [pair, sums] : boundaries) surfaces.boundaries.push_back({pair, sums});
   for (const auto& shared : shape.shared_edges) {
     const Index e = shared.edge;
     const bool is_owner = number < shared.neighbour;
     const bool is_smooth = angles[e] < tolerance.smooth_angle(mesh.graph().faces_of(e));
+    const Tile_surfaces::Side_sums sums = {sums_of(e), is_smooth, mesh.is_wall(e)};
     surfaces.sides.push_back({shared.side, static_cast<Index>(regions.region_of_face[own_face(shape, shared)]), 0,
-                              is_owner ? Tile_surfaces::Side_sums{sums_of(e), is_smooth} : Tile_surfaces::Side_sums(),
-                              is_owner});
+                              is_owner ? sums : Tile_surfaces::Side_sums(), is_owner});
   }
 }
 
@@ -214,7 +222,8 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::surfaces_of_tile(
     Tile_surfaces& surfaces, const Progress& progress) {
   const auto& [number, plan] = place;
   surfaces = {};
-  const Tile_shape shape = internal::Tile_surroundings(tile, plan, number, neighbours).shape(surfaces.turned_sides);
+  const Tile_shape shape =
+      internal::Tile_surroundings(tile, place, neighbours, options.wall_angle).shape(surfaces.turned_sides);
   if (shape.own_faces == 0) return {};
   const internal::Surface_tolerance tolerance(shape.mesh, noise.deviation, noise.kind);
   const internal::Regions_of_part regions = internal::regions_of_part(shape, tolerance, progress);
@@ -267,7 +276,7 @@ inline std::vector<std::size_t> fragments_of_regions(const std::vector<Tile_surf
     return cost.surface_of(regions[region]).type == Surface_type::free_form;
   };
   nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
-    if (owner.value.is_smooth && is_free_form(a) && is_free_form(b)) sets.union_set(a, b);
+    if (owner.value.is_smooth && !owner.value.is_wall && is_free_form(a) && is_free_form(b)) sets.union_set(a, b);
   });
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> number(nodes.count(), none), fragment;
@@ -281,15 +290,22 @@ inline std::vector<std::size_t> fragments_of_regions(const std::vector<Tile_surf
 }
 
 /// The boundaries between the regions of all tiles, in no order.
-inline std::vector<Boundary_of_regions<Edge_sums>> boundaries_of_regions(const std::vector<Tile_surfaces>& tiles,
-                                                                         const Joined_nodes& nodes) {
+/// \param[out] walls regions on the two sides of a wall
+inline std::vector<Boundary_of_regions<Edge_sums>> boundaries_of_regions(
+    const std::vector<Tile_surfaces>& tiles, const Joined_nodes& nodes,
+    std::vector<std::array<Dual_mesh::Index, 2>>& walls) {
   using Index = Dual_mesh::Index;
   std::vector<Boundary_of_regions<Edge_sums>> boundaries;
-  for (std::size_t t = 0; t < tiles.size(); ++t)
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
     for (const auto& [regions, sums] : tiles[t].boundaries)
       boundaries.push_back({{nodes(t, regions[0]), nodes(t, regions[1])}, sums});
+    for (const auto& regions : tiles[t].walls) walls.push_back({nodes(t, regions[0]), nodes(t, regions[1])});
+  }
   nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
-    boundaries.push_back({{std::min(a, b), std::max(a, b)}, owner.value.edge});
+    if (owner.value.is_wall)
+      walls.push_back({a, b});
+    else
+      boundaries.push_back({{std::min(a, b), std::max(a, b)}, owner.value.edge});
   });
   return boundaries;
 }
@@ -308,8 +324,12 @@ RW_SEGMENTATION_INLINE Merged_surfaces merge_tiles(const Tile_plan& plan, const 
   Merged_surfaces merged;
   std::vector<Analytic_surface_cost::Region> of_fragment(count);
   for (std::size_t r = 0; r < regions.size(); ++r) cost.join(of_fragment[fragment[r]], regions[r]);
-  auto boundaries = internal::join_boundaries(internal::boundaries_of_regions(tiles, nodes), fragment);
+  std::vector<std::array<Dual_mesh::Index, 2>> walls;
+  auto boundaries = internal::join_boundaries(internal::boundaries_of_regions(tiles, nodes, walls), fragment);
   for (const auto& boundary : boundaries) merged.neighbours.push_back(boundary.regions);
+  for (const auto& [a, b] : walls)
+    merged.neighbours.push_back(
+        {static_cast<Dual_mesh::Index>(fragment[a]), static_cast<Dual_mesh::Index>(fragment[b])});
   merged.tree = internal::Region_merging<Analytic_surface_cost>(std::move(of_fragment), std::move(boundaries), cost)
                     .run(progress);
   for (std::size_t t = 0; t < tiles.size(); ++t) {
@@ -365,7 +385,7 @@ RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiles(cons
   for (std::size_t t = 0; t < count; ++t)
     result.fragment_of_face.push_back(surfaces_of_tile(tiles[t], {t, result.plan},
                                                        of_neighbours(result.plan, borders, t), result.noise,
-                                                       result.regions[t], part(0.1, 0.95, t)));
+                                                       result.regions[t], options, part(0.1, 0.95, t)));
   result.merged = merge_tiles(result.plan, result.noise, result.regions, progress.part(0.95, 1));
   for (std::size_t t = 0; t < count; ++t)
     for (Dual_mesh::Index& region : result.fragment_of_face[t]) region = result.merged.fragments[t][region];

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef SEGMENT_MESH_TREAT_BOUNDARIES_H
+#define SEGMENT_MESH_TREAT_BOUNDARIES_H
+
+#include "../mesh_files/Polygon_soup.h"
+#include "Boundaries.h"
+#include "Options.h"
+#include "Oriented_mesh.h"
+#include "Output_files.h"
+#include "Segmentation.h"
+#include "Stages.h"
+#include "walls.h"
+
+namespace segment_mesh {
+
+/// Whether boundaries are written or cut into the mesh.
+inline bool treats_boundaries(const Options& options) {
+  return options.is_refined || !options.files.boundaries.empty();
+}
+
+/// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
+inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
+                             const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
+  if (!treats_boundaries(options)) return;
+  const auto callback = stages.start("boundaries");
+  const Boundary_curves curves =
+      boundary_curves(input.mesh, walls, result.label, options.is_smooth || options.is_refined, callback);
+  files.write_boundaries(curves);
+  if (!options.is_refined) return;
+  cut_boundaries(input.mesh, curves, result);
+  soup = soup_of(input.mesh);
+  input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
+}
+
+}  // namespace segment_mesh
+
+#endif
