@@ -102,7 +102,8 @@ Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_nei
                            const Tiled_surfaces& options, const Progress& progress);
 std::vector<Dual_mesh::Index> surfaces_of_tile(const Tile& tile, const Tile_in_plan& place,
                                                const std::vector<Tile_border>& neighbours, const Surface_noise& noise,
-                                               Tile_surfaces& surfaces, const Progress& progress);
+                                               Tile_surfaces& surfaces, const Tiled_surfaces& options,
+                                               const Progress& progress);
 
 }  // namespace internal
 
@@ -134,7 +135,8 @@ Surface_noise noise_of_tiles(const Tile_plan& plan, const std::vector<Tile_neigh
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 std::vector<Dual_mesh::Index> surfaces_of_tile(const Tile& tile, const Tile_in_plan& place,
                                                const std::vector<Tile_border>& neighbours, const Surface_noise& noise,
-                                               Tile_surfaces& surfaces, const Progress& progress = {}) {
+                                               Tile_surfaces& surfaces, const Tiled_surfaces& options = {},
+                                               const Progress& progress = {}) {
   return internal::with_threads<ConcurrencyTag>(
       [&] { return internal::surfaces_of_tile(tile, place, neighbours, noise, surfaces, options, progress); });
 }

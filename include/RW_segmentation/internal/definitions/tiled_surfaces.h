@@ -219,7 +219,7 @@ inline void take_boundaries(const Tile_shape& shape, std::size_t number, const R
 
 RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::surfaces_of_tile(
     const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours, const Surface_noise& noise,
-    Tile_surfaces& surfaces, const Progress& progress) {
+    Tile_surfaces& surfaces, const Tiled_surfaces& options, const Progress& progress) {
   const auto& [number, plan] = place;
   surfaces = {};
   const Tile_shape shape =
