@@ -21,6 +21,7 @@
 
 #include <gtest/gtest.h>
 #include "../benchmark/segmentation_measures.h"
+#include "cut_into_tiles.h"
 #include "meshes.h"
 
 #include <algorithm>
@@ -46,100 +47,7 @@ namespace {
 using Index = Dual_mesh::Index;
 using Labels = std::vector<std::size_t>;
 using meshes::Shape;
-
-// ---- Cutting ----
-
-/// The mesh as a single tile.
-Tile as_tile(const Shape& shape) {
-  Tile tile;
-  tile.points = shape.points;
-  for (const auto& face : shape.faces) {
-    for (const auto v : face) tile.corners.add(static_cast<Index>(v));
-    tile.corners.end_face();
-  }
-  return tile;
-}
-
-/// Edges by their two vertices, the lower one first.
-using Edges = std::set<std::array<std::size_t, 2>>;
-
-/// Calls `use(face, edge)` for each side of each face.
-template <class Use>
-void for_each_side(const Shape& shape, const Use& use) {
-  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
-    std::size_t from = shape.faces[f].back();
-    for (const std::size_t to : shape.faces[f]) {
-      use(f, std::array{std::min(from, to), std::max(from, to)});
-      from = to;
-    }
-  }
-}
-
-/// A mesh in tiles, and where each of its faces has come to.
-struct Cut_mesh {
-  std::vector<Tile> tiles;
-  std::vector<std::map<std::size_t, Index>> number;        // by tile, of vertices of the mesh
-  std::vector<std::pair<std::size_t, std::size_t>> place;  // by face: tile, and face of it
-
-  /// What tiles say of their faces, in the order of the mesh.
-  Labels of_whole(const std::vector<Labels>& of_tiles) const {
-    Labels labels;
-    for (const auto& [tile, face] : place) labels.push_back(of_tiles[tile][face]);
-    return labels;
-  }
-};
-
-/// Gives each face to the tile that a function of its middle tells.
-Cut_mesh cut(const Shape& shape, std::size_t tiles, const std::function<std::size_t(const Eigen::Vector3d&)>& tile_at) {
-  Cut_mesh result;
-  result.tiles.resize(tiles);
-  result.number.resize(tiles);
-  for (const auto& face : shape.faces) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
-    const std::size_t t = tile_at(middle);
-    Tile& tile = result.tiles[t];
-    result.place.emplace_back(t, tile.number_of_faces());
-    for (const auto v : face) {
-      const auto [place, is_new] = result.number[t].emplace(v, static_cast<Index>(tile.points.size()));
-      if (is_new) {
-        tile.points.push_back(shape.points[v]);
-        tile.vertex_ids.push_back(1000 + v);
-      }
-      tile.corners.add(place->second);
-    }
-    tile.corners.end_face();
-  }
-  for (Tile& tile : result.tiles) tile.vertex_ids.clear();
-  return result;
-}
-
-/// Slices along x, which the balls of the chain do not end at.
-Cut_mesh slices(const Shape& shape, std::size_t tiles) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : shape.points) box.extend(p);
-  return cut(shape, tiles, [&](const Eigen::Vector3d& p) {
-    const double along = (p[0] - box.min()[0]) / box.sizes()[0];
-    return std::min(tiles - 1, static_cast<std::size_t>(along * static_cast<double>(tiles)));
-  });
-}
-
-/// Octants round a point that is not in the middle.
-Cut_mesh octants(const Shape& shape) {
-  return cut(shape, 8, [](const Eigen::Vector3d& p) {
-    return std::size_t(p[0] > 0.13) + 2 * std::size_t(p[1] > 0.07) + 4 * std::size_t(p[2] > -0.05);
-  });
-}
-
-/// A copy of which one tile names each wall, even if it lies between two.
-Cut_mesh with_walls(Cut_mesh mesh, const Shape& shape, Edges walls) {
-  for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
-    if (walls.erase(edge) == 0) return;
-    const std::size_t t = mesh.place[f].first;
-    mesh.tiles[t].walls.push_back({mesh.number[t].at(edge[0]), mesh.number[t].at(edge[1])});
-  });
-  return mesh;
-}
+using namespace tiles;
 
 /// Two balls with a neck between them.
 Shape dumbbell() { return meshes::two_spheres_with_neck(2.6, 0.35, 40); }

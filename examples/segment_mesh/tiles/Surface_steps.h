@@ -11,6 +11,7 @@
 #include "Tile_step.h"
 
 #include <RW_segmentation/regular_surfaces.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/tiled_surfaces.h>
 
 #include <array>

@@ -162,12 +162,14 @@ class Tile_surroundings {
   using Index = Dual_mesh::Index;
 
   /// \param wall_angle see `Tiled_segmentation`
+  /// \throws std::invalid_argument if it is negative or NaN
   Tile_surroundings(const Tile& tile, const Tile_in_plan& place, const std::vector<Tile_border>& neighbours,
                     double wall_angle)
       : plan_(place.plan),
         number_(place.number),
         wall_angle_(wall_angle),
         points_(points_in_box(tile, place.plan.box)) {
+    if (!(wall_angle >= 0)) throw argument_error("wall_angle", wall_angle, "not negative");
     take_faces(tile);
     add_halo(glued(neighbours));
   }
@@ -419,7 +421,6 @@ RW_SEGMENTATION_INLINE Shaped_tile internal::shape_of_tile(const Tile& tile, con
                                                            const internal::Noise_of_mesh& noise,
                                                            const Tiled_segmentation& options,
                                                            const Progress& progress) {
-  if (!(options.wall_angle >= 0)) throw internal::argument_error("wall_angle", options.wall_angle, "not negative");
   const auto& [number, plan] = place;
   Shaped_tile result;
   auto& [shape, outline] = result;

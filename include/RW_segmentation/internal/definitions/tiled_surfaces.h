@@ -6,10 +6,10 @@
 #include <RW_segmentation/Analytic_surface_cost.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/definitions/segment_surfaces.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
+#include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
