@@ -78,15 +78,14 @@ TEST(TiledSurfaces, OfMeshesOfAKernelAreThoseOfTheWhole) {
   }
 }
 
-TEST(TiledSurfaces, OfNoisyTilesAreAsNearTheTruthAsThoseOfTheWhole) {
-  // Means over eight solids; over three draws of the noise .006 and .002.
-  double of_tiles = 0, of_whole = 0;
-  for (const solids::Solid& clean : solids::all(solids::even(0.2))) {
+TEST(TiledSurfaces, OfNoisyTilesAreNearlyThoseOfTheWhole) {
+  // For a draw of the noise by chance; means over eight solids and three draws are .006 and .002.
+  const solids::Meshing meshing = solids::even(0.2);
+  for (const solids::Solid& clean : {solids::stepped_shaft(meshing), solids::pipe_elbow(meshing)}) {
     const solids::Solid solid = solids::with_noise(clean, 0.1);
-    of_tiles += rand_error(segments_of(octants(shape_of(solid))), solid.label) / 8;
-    of_whole += rand_error(segments_of_whole(shape_of(solid)), solid.label) / 8;
+    const double of_whole = rand_error(segments_of_whole(shape_of(solid)), solid.label);
+    EXPECT_LE(rand_error(segments_of(octants(shape_of(solid))), solid.label), of_whole + 0.02) << solid.name;
   }
-  EXPECT_LE(of_tiles, of_whole + 0.01);
 }
 
 TEST(TiledSurfaces, OfOneTileAreThoseOfTheMesh) {
@@ -170,18 +169,16 @@ Surface_noise noise_of(const std::vector<Tile>& tiles) {
 }
 
 TEST(TiledSurfaces, EstimateTheNoiseOfTheWhole) {
-  const solids::Solid clean = solids::stepped_shaft(solids::even(0.1));
+  const solids::Solid clean = solids::stepped_shaft(solids::even(0.15));
   EXPECT_EQ(noise_of(octants(shape_of(clean)).tiles).deviation, 0);
-  for (const double percent : {0.1, 0.3})
-    for (const bool is_scanned : {false, true}) {
-      const solids::Solid solid = is_scanned ? solids::scanned(clean, percent) : solids::with_noise(clean, percent);
-      const auto mesh = meshes::surface_mesh(shape_of(solid));
-      const internal::Surface_tolerance whole =
-          internal::surface_tolerance(Dual_mesh_of<meshes::Surface_mesh>(mesh), -1);
-      const Surface_noise tiled = noise_of(octants(shape_of(solid)).tiles);
-      EXPECT_NEAR(tiled.deviation, whole.noise, 0.1 * whole.noise) << percent << is_scanned;
-      EXPECT_EQ(internal::may_be_independent(tiled.kind), !is_scanned);
-    }
+  for (const bool is_scanned : {false, true}) {
+    const solids::Solid solid = is_scanned ? solids::scanned(clean, 0.2) : solids::with_noise(clean, 0.2);
+    const auto mesh = meshes::surface_mesh(shape_of(solid));
+    const internal::Surface_tolerance whole = internal::surface_tolerance(Dual_mesh_of<meshes::Surface_mesh>(mesh), -1);
+    const Surface_noise tiled = noise_of(octants(shape_of(solid)).tiles);
+    EXPECT_NEAR(tiled.deviation, whole.noise, 0.1 * whole.noise);
+    EXPECT_EQ(internal::may_be_independent(tiled.kind), !is_scanned);
+  }
 }
 
 TEST(TiledSurfaces, ReckonWithTheNoiseThatIsGiven) {

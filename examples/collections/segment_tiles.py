@@ -18,17 +18,22 @@ from pathlib import Path
 from distributed import Client, LocalCluster, progress, wait
 
 # Each step of the tool, whether it is done tile by tile, and the file that it leaves at its end.
-STEPS = (
+FIRST_STEPS = (
     ("survey", True, "survey"),
     ("plan", False, "plan"),
     ("border", True, "noise"),
     ("noise", False, "noise_of_all"),
+)
+STEPS_OF_WALKS = (
     ("shape", True, "outline"),
     ("places", True, "places"),
     ("seeds", False, "seeds"),
     ("clusters", True, "network"),
     ("walk", False, "walk"),
     ("fragments", True, "regions"),
+)
+STEPS_OF_SURFACES = (("surfaces", True, "regions"),)
+LAST_STEPS = (
     ("merge", False, "segments"),
     ("labels", True, "labels"),
     ("report", False, "report"),
@@ -53,7 +58,8 @@ def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options
     tile_list.write_text("".join(f"{tile}\n" for tile in tiles))
     command = ["segment_mesh", "--quiet", "--tiled", "--list", str(tile_list)]
     command += ["--tile-folder", str(work), "--labels", f"{outputs}/%.seg", *options]
-    for step, is_of_each_tile, file in STEPS:
+    of_method = STEPS_OF_SURFACES if "--engineering" in options else STEPS_OF_WALKS
+    for step, is_of_each_tile, file in (*FIRST_STEPS, *of_method, *LAST_STEPS):
         places: list[int | None] = list(range(len(tiles))) if is_of_each_tile else [None]
         left = [place for place in places if not (work / (file if place is None else f"{file}_{place}")).exists()]
         tasks = [client.submit(run_step, command, step, place, pure=False, retries=2) for place in left]

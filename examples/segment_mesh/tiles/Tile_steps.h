@@ -265,7 +265,7 @@ class Tile_steps {
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
           {{"label", label_of(s)}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
-    if (!faces.empty() && !options_.has_seeds()) report["levels"] = all.tree().levels(all.suggested);
+    if (!faces.empty() && !options_.has_seeds() && !options_.is_engineering) report["levels"] = all.tree().levels(all.suggested);
     if (options_.is_engineering)
       surfaces_.complete(report);
     else
