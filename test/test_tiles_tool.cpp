@@ -343,7 +343,9 @@ TEST_F(Walled_tiles, HaveNoSegmentOnBothSides) {
   const Result result = run(command({"--segments", "2", "--constraints", "%.walls", "--report", "report.json"}));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(on_both_sides(take_labels()), std::set<std::size_t>());
-  EXPECT_EQ(Json::parse(content_of(path("report.json")))["components"], 2);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["components"], 2);
+  EXPECT_EQ(report["walls"], walls_.size());
   ASSERT_EQ(run(command({"--seed", "0.3,0.3,2.3=4", "--seed", "0,0,-2.3=0", "--constraints", "%.walls"})).exit_code, 0);
   const auto from_seeds = take_labels();
   for (std::size_t t = 0; t < 4; ++t)

@@ -498,6 +498,7 @@ class Tile_steps {
                    {"seeds", seeds.seeds.size()},
                    {"fragments", all.of_fragment.size()},
                    {"turned_sides", seeds.turned_sides},
+                   {"walls", seeds.walls},
                    {"segments", Json::array()},
                    {"failed", failures()},
                    {"version", version()}};

@@ -118,6 +118,7 @@ void transfer(Archive& a, Tile_seeds& x) {
   a(x.ordinary.excess);
   a(x.ordinary.crease_weight);
   a(x.turned_sides);
+  a(x.walls);
   a(x.are_given);
   a(x.seeded_turn);
 }
@@ -202,6 +203,7 @@ void transfer(Archive& a, Turn_sums& x) {
   a(x.turn);
   a(x.seeded_turn);
   a(x.counts);
+  a(x.walls);
 }
 
 template <class Archive, class Value>
