@@ -48,6 +48,13 @@ void for_each_side(const meshes::Shape& shape, const Use& use) {
   }
 }
 
+/// The mean of the corners of a face.
+inline Eigen::Vector3d middle_of(const meshes::Shape& shape, const std::vector<std::size_t>& face) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
+  return middle;
+}
+
 /// A mesh in tiles, and where each of its faces has come to.
 struct Cut_mesh {
   std::vector<RW_segmentation::Tile> tiles;
@@ -69,9 +76,7 @@ inline Cut_mesh cut(const meshes::Shape& shape, std::size_t tiles,
   result.tiles.resize(tiles);
   result.number.resize(tiles);
   for (const auto& face : shape.faces) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
-    const std::size_t t = tile_at(middle);
+    const std::size_t t = tile_at(middle_of(shape, face));
     RW_segmentation::Tile& tile = result.tiles[t];
     result.place.emplace_back(t, tile.number_of_faces());
     for (const auto v : face) {
@@ -108,6 +113,40 @@ inline Cut_mesh octants(const meshes::Shape& shape) {
 
 /// A copy of which one tile names each wall, even if it lies between two.
 Cut_mesh with_walls(Cut_mesh mesh, const meshes::Shape& shape, Edges walls) {
+  for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
+    if (walls.erase(edge) == 0) return;
+    const std::size_t t = mesh.place[f].first;
+    mesh.tiles[t].walls.push_back({mesh.number[t].at(edge[0]), mesh.number[t].at(edge[1])});
+  });
+  return mesh;
+}
+
+/// A part of a mesh, and the closed loops of walls round it.
+struct Walled_part {
+  std::vector<char> contains;  // by face
+  Edges walls;
+
+  Walled_part(const meshes::Shape& shape, const std::function<bool(const Eigen::Vector3d&)>& is_inside) {
+    for (const auto& face : shape.faces) contains.push_back(is_inside(middle_of(shape, face)));
+    std::map<std::array<std::size_t, 2>, std::size_t> faces_inside;
+    for_each_side(shape, [&](std::size_t f, const auto& edge) { faces_inside[edge] += contains[f] != 0; });
+    for (const auto& [edge, faces] : faces_inside)
+      if (faces == 1) walls.insert(edge);
+  }
+
+  /// The labels that there are on both sides.
+  std::set<std::size_t> on_both_sides(const std::vector<std::size_t>& labels) const {
+    std::set<std::size_t> inside, both;
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      if (contains[f]) inside.insert(labels[f]);
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      if (!contains[f] && inside.count(labels[f]) > 0) both.insert(labels[f]);
+    return both;
+  }
+};
+
+/// A copy of which one tile names each wall, even if it lies between two.
+inline Cut_mesh with_walls(Cut_mesh mesh, const meshes::Shape& shape, Edges walls) {
   for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
     if (walls.erase(edge) == 0) return;
     const std::size_t t = mesh.place[f].first;

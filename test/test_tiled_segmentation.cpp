@@ -321,34 +321,6 @@ TEST(TiledSegmentation, RefusesSeedsThatContradictEachOtherOrLieNowhere) {
 
 // ---- Walls ----
 
-/// A part of a mesh, and the closed loops of walls round it.
-struct Walled_part {
-  std::vector<char> contains;  // by face
-  Edges walls;
-
-  Walled_part(const Shape& shape, const std::function<bool(const Eigen::Vector3d&)>& is_inside) {
-    for (const auto& face : shape.faces) {
-      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-      for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
-      contains.push_back(is_inside(middle));
-    }
-    std::map<std::array<std::size_t, 2>, std::size_t> faces_inside;
-    for_each_side(shape, [&](std::size_t f, const auto& edge) { faces_inside[edge] += contains[f] != 0; });
-    for (const auto& [edge, faces] : faces_inside)
-      if (faces == 1) walls.insert(edge);
-  }
-
-  /// The labels that there are on both sides.
-  std::set<std::size_t> on_both_sides(const Labels& labels) const {
-    std::set<std::size_t> inside, both;
-    for (std::size_t f = 0; f < labels.size(); ++f)
-      if (contains[f]) inside.insert(labels[f]);
-    for (std::size_t f = 0; f < labels.size(); ++f)
-      if (!contains[f] && inside.count(labels[f]) > 0) both.insert(labels[f]);
-    return both;
-  }
-};
-
 /// A piece of the upper ball, where no crease is.
 bool is_on_cap(const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(0.7, 0.3, 1.7)).norm() < 0.6; }
 
@@ -411,12 +383,7 @@ struct Sided_cube {
   Labels side;
 
   Sided_cube() {
-    for (const auto& face : shape.faces) side.push_back(side_at(middle_of(face)));
-  }
-  Eigen::Vector3d middle_of(const std::vector<std::size_t>& face) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const auto v : face) sum += shape.points[v];
-    return sum / static_cast<double>(face.size());
+    for (const auto& face : shape.faces) side.push_back(side_at(middle_of(shape, face)));
   }
   static std::size_t side_at(const Eigen::Vector3d& p) {
     Eigen::Index axis = 0;
@@ -447,24 +414,70 @@ TEST(TiledSegmentation, WithSharpEdgesAsWallsACubeHasItsSixSidesHoweverItIsTiled
   }
 }
 
+/// Of each neighbour of a tile what there is of all tiles.
+template <class Of_tile>
+std::vector<Of_tile> of_neighbours(const std::vector<Of_tile>& of_tiles, const Tile_plan& plan, std::size_t tile) {
+  std::vector<Of_tile> result;
+  for (const auto n : plan.tiles[tile].neighbours) result.push_back(of_tiles[n]);
+  return result;
+}
+
+/// Tiles joined with their neighbours' borders.
+struct Shaped_tiles {
+  Tile_plan plan;
+  std::vector<Tile_border> borders;
+  std::vector<Tile_shape> shapes;
+  std::vector<Tile_outline> outlines;
+
+  Shaped_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options)
+      : plan(plan_tiles(surveys_of(tiles), options)) {
+    std::vector<Tile_noise> noises(tiles.size());
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+      borders.push_back(border_of_tile(tiles[t], {t, plan}, noises[t], options));
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      Shaped_tile shaped =
+          shape_of_tile(tiles[t], {t, plan}, of_neighbours(borders, plan, t), noise_of_tiles(noises), options);
+      shapes.push_back(std::move(shaped.shape));
+      outlines.push_back(std::move(shaped.outline));
+    }
+  }
+};
+
 TEST(TiledSegmentation, PlacesASeedInEachPartThatWallsEnclose) {
   const Sided_cube cube;
   for (const Cut_mesh& mesh : cube.cuts()) {
     Tiled_segmentation options = by_wall_angle();
     options.seeds = 1;
-    const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, options);
-    EXPECT_EQ(hierarchy.tree.number_of_fragments(), 6U);
-    EXPECT_EQ(rand_error(cube.side, mesh.of_whole(hierarchy.segments(6))), 0);
+    const Shaped_tiles tiles(mesh.tiles, options);
+    std::multiset<std::size_t> sides;
+    for (const auto& seed : seeds_of_tiles(tiles.plan, tiles.outlines, options).seeds)
+      for (std::size_t f = 0; f < mesh.place.size(); ++f)
+        if (mesh.place[f] == std::pair<std::size_t, std::size_t>(seed.tile, seed.face)) sides.insert(cube.side[f]);
+    EXPECT_EQ(sides, (std::multiset<std::size_t>{0, 1, 2, 3, 4, 5}));
   }
 }
 
-/// What the steps leave of tiles with seeds that place themselves.
-internal::Walked_tiles walked(const std::vector<Tile>& tiles, const Tiled_segmentation& options) {
-  return internal::walk_over_tiles_in_memory(
-      tiles, options,
-      [&](const Tile_plan& plan, const std::vector<Tile_shape>&, const std::vector<Tile_outline>& outlines,
-          const Progress& progress) { return seeds_of_tiles(plan, outlines, options, progress); },
-      {});
+/// What merging asks of tiles with seeds that place themselves.
+std::vector<Tile_regions> regions_of(const std::vector<Tile>& tiles, const Tiled_segmentation& options) {
+  const Shaped_tiles shaped(tiles, options);
+  const auto& [plan, borders, shapes, outlines] = shaped;
+  const Tile_seeds seeds = seeds_of_tiles(plan, outlines, options);
+  std::vector<Tile_clusters> clusters;
+  std::vector<Tile_network> networks(tiles.size());
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    clusters.push_back(clusters_of_tile(shapes[t], {t, plan}, borders[t], seeds, networks[t], options));
+  const Tile_walk walk = walk_over_tiles(plan, seeds, networks, options);
+  std::vector<Tile_regions> regions(tiles.size());
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    fragments_of_tile({{t, plan},
+                       shapes[t],
+                       clusters[t],
+                       of_neighbours(borders, plan, t),
+                       of_neighbours(networks, plan, t),
+                       seeds,
+                       walk},
+                      regions[t]);
+  return regions;
 }
 
 TEST(TiledSegmentation, TellsWhichFragmentsLieBesideEachOtherAtWalls) {
@@ -472,9 +485,8 @@ TEST(TiledSegmentation, TellsWhichFragmentsLieBesideEachOtherAtWalls) {
   for (const Cut_mesh& mesh : cube.cuts()) {
     Tiled_segmentation options = by_wall_angle();
     options.seeds = 1;
-    const internal::Walked_tiles tiles = walked(mesh.tiles, options);
     std::set<std::array<Index, 2>> pairs;
-    for (const Tile_regions& regions : tiles.regions) {
+    for (const Tile_regions& regions : regions_of(mesh.tiles, options)) {
       pairs.insert(regions.walls.begin(), regions.walls.end());
       EXPECT_TRUE(regions.boundaries.empty());
     }
@@ -482,32 +494,17 @@ TEST(TiledSegmentation, TellsWhichFragmentsLieBesideEachOtherAtWalls) {
   }
 }
 
-/// The shapes of tiles with their halos.
-std::vector<Tile_shape> shapes_of(const std::vector<Tile>& tiles, const Tile_plan& plan,
-                                  const Tiled_segmentation& options) {
-  std::vector<Tile_border> borders;
-  std::vector<Tile_noise> noises(tiles.size());
-  for (std::size_t t = 0; t < tiles.size(); ++t)
-    borders.push_back(border_of_tile(tiles[t], {t, plan}, noises[t], options));
-  std::vector<Tile_shape> shapes;
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    std::vector<Tile_border> neighbours;
-    for (const auto n : plan.tiles[t].neighbours) neighbours.push_back(borders[n]);
-    shapes.push_back(shape_of_tile(tiles[t], {t, plan}, neighbours, noise_of_tiles(noises), options).shape);
-  }
-  return shapes;
-}
-
 TEST(TiledSegmentation, TilesSeeTheWallsOfTheirNeighbours) {
   const Shape shape = dumbbell();
   const Edges walls = cap_of(shape).walls;
   for (const Cut_mesh& mesh : cuts_through_cap(shape)) {
-    const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles));
+    const Shaped_tiles tiles(mesh.tiles, {});
     const auto coordinates = [](const Eigen::Vector3d& p) { return std::array{p[0], p[1], p[2]}; };
     std::map<std::array<double, 3>, std::size_t> vertex_at;
-    for (std::size_t v = 0; v < shape.points.size(); ++v) vertex_at[coordinates(plan.box.scaled(shape.points[v]))] = v;
+    for (std::size_t v = 0; v < shape.points.size(); ++v)
+      vertex_at[coordinates(tiles.plan.box.scaled(shape.points[v]))] = v;
     Edges seen;
-    for (const Tile_shape& of_tile : shapes_of(mesh.tiles, plan, {}))
+    for (const Tile_shape& of_tile : tiles.shapes)
       for (Index e = 0; e < of_tile.mesh.number_of_edges(); ++e) {
         const auto [a, b] = of_tile.mesh.ends(e);
         const std::size_t u = vertex_at.at(coordinates(of_tile.mesh.point(a)));
@@ -526,12 +523,12 @@ TEST(TiledSegmentation, TilesAgreeWhichEdgesAreSharpWhereTheirVerticesLieApart) 
   options.tolerance = 0.002;
   for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
     for (Eigen::Vector3d& p : mesh.tiles[t].points) p[0] += 2e-4 * static_cast<double>(t);
-  const Tile_plan plan = plan_tiles(surveys_of(mesh.tiles), options);
   for (const double angle : {0.1, 0.2, 0.3, 0.4}) {
     options.wall_angle = angle;
     std::map<internal::Tile_side, std::set<bool>> answers;
     std::map<bool, std::size_t> count;
-    for (const Tile_shape& shape : shapes_of(mesh.tiles, plan, options))
+    const Shaped_tiles tiles(mesh.tiles, options);
+    for (const Tile_shape& shape : tiles.shapes)
       for (const auto& shared : shape.shared_edges) {
         const bool is_wall = shape.mesh.is_wall(shared.edge);
         answers[shared.side].insert(is_wall);
@@ -543,12 +540,12 @@ TEST(TiledSegmentation, TilesAgreeWhichEdgesAreSharpWhereTheirVerticesLieApart) 
   }
 }
 
-TEST(TiledSegmentation, ReadsConstrainedEdgesOfAnyMeshAsWalls) {
-  const Shape shape = meshes::cube_of_quads();
+TEST(TiledSegmentation, ReadsConstrainedEdgesAsWallsAtTheBorderAsWell) {
+  const Shape shape = meshes::plane(2);
   const auto mesh = meshes::surface_mesh(shape);
   Edges walls;
   for_each_side(shape, [&](std::size_t f, const auto& edge) {
-    if (f == 0 && walls.size() < 2) walls.insert(edge);
+    if (f == 0) walls.insert(edge);  // of which one or two lie on the border
   });
   const Tile_of tile(mesh, CGAL::parameters::edge_is_constrained_map(wall_map(mesh, walls)));
   Edges read;

@@ -234,35 +234,18 @@ TEST(TiledSurfaces, EndAtWalls) {
   const Given_cylinder given;
   const Shape shape = given.shape();
   const auto is_upper = [&](const Eigen::Vector3d& p) { return (p - given.point).dot(given.axis) > 3; };
-  std::map<std::array<std::size_t, 2>, std::size_t> upper_faces;
-  Labels upper;
-  for (const auto& face : shape.faces) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto v : face) middle += shape.points[v] / static_cast<double>(face.size());
-    upper.push_back(is_upper(middle));
-  }
-  Edges walls;
-  for_each_side(shape, [&](std::size_t f, const auto& edge) { upper_faces[edge] += upper[f]; });
-  for (const auto& [edge, count] : upper_faces)
-    if (count == 1) walls.insert(edge);
-  for (Cut_mesh mesh : {octants(shape), slices(shape, 5), cut(shape, 2, is_upper)}) {
-    for (std::size_t t = 0; t < mesh.tiles.size(); ++t)
-      for (const auto& [u, v] : walls) {
-        const auto a = mesh.number[t].find(u), b = mesh.number[t].find(v);
-        if (a == mesh.number[t].end() || b == mesh.number[t].end()) continue;
-        Tile& tile = mesh.tiles[t];
-        tile.walls.push_back({a->second, b->second});
-        try {
-          survey_tile(tile);
-        } catch (const std::invalid_argument&) {
-          tile.walls.pop_back();  // both ends are in the tile, but the edge is not
-        }
-      }
+  const Walled_part upper(shape, is_upper);
+  for (const Cut_mesh& open : {octants(shape), slices(shape, 5), cut(shape, 2, is_upper)}) {
+    const Cut_mesh mesh = with_walls(open, shape, upper.walls);
     const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
-    EXPECT_EQ(rand_error(mesh.of_whole(hierarchy.segments(segments_by_shape(hierarchy))), upper), 0);
-    std::set<std::set<Index>> pairs;
-    for (const auto& [a, b] : hierarchy.merged.neighbours) pairs.insert({a, b});
-    EXPECT_GE(pairs.size(), 1U);
+    EXPECT_EQ(hierarchy.components, 2U);
+    EXPECT_EQ(hierarchy.merged.walls, upper.walls.size());
+    EXPECT_EQ(rand_error(mesh.of_whole(hierarchy.segments(2)), upper.contains), 0);
+    EXPECT_EQ(segments_by_shape(hierarchy), 2U);
+    std::set<std::set<std::size_t>> beside_each_other;
+    const std::vector<std::size_t> segment = hierarchy.tree.segment_of_fragments(2);
+    for (const auto& [a, b] : hierarchy.merged.neighbours) beside_each_other.insert({segment[a], segment[b]});
+    EXPECT_EQ(beside_each_other.count({0, 1}), 1U);
   }
 }
 

@@ -343,7 +343,9 @@ TEST_F(Walled_tiles, HaveNoSegmentOnBothSides) {
   const Result result = run(command({"--segments", "2", "--constraints", "%.walls", "--report", "report.json"}));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(on_both_sides(take_labels()), std::set<std::size_t>());
-  EXPECT_EQ(Json::parse(content_of(path("report.json")))["components"], 2);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["components"], 2);
+  EXPECT_EQ(report["walls"], walls_.size());
   ASSERT_EQ(run(command({"--seed", "0.3,0.3,2.3=4", "--seed", "0,0,-2.3=0", "--constraints", "%.walls"})).exit_code, 0);
   const auto from_seeds = take_labels();
   for (std::size_t t = 0; t < 4; ++t)
@@ -377,29 +379,37 @@ TEST_F(Walled_tiles, RefuseWallsThatAreNone) {
   EXPECT_FALSE(fs::exists(path("tile_2.seg")));
 }
 
-TEST_F(Tiles, WithSharpEdgesAsWallsHaveTheSidesOfACube) {
-  const meshes::Shape cube = meshes::cube(10);
-  write_tiles(cube);
-  const Result result = run(command({"--constraints-angle", "40", "--report", "report.json"}));
+TEST_F(Tiles, WithSharpEdgesAsWallsHaveTheSidesOfAPolyhedron) {
+  const meshes::Shape polyhedron = meshes::sphere(2);  // over whose edges normals turn by more than 5 degrees
+  const std::size_t sides = polyhedron.faces.size();
+  constexpr std::size_t faces_of_side = 4;
+  write_tiles(meshes::subdivided(polyhedron));
+  const Result result = run(command({"--constraints-angle", "5", "--report", "report.json"}));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   const auto all = take_labels();
-  std::map<std::size_t, std::set<std::size_t>> sides;  // by label
+  std::vector<std::set<std::size_t>> labels(sides);
   for (std::size_t t = 0; t < 4; ++t)
-    for (std::size_t f = 0; f < faces_[t]; ++f) {
-      Eigen::Index axis = 0;
-      const Eigen::Vector3d from_centre = middle_of(cube, faces_of_tile_[t][f]) - Eigen::Vector3d(0.5, 0.5, 0.5);
-      from_centre.cwiseAbs().maxCoeff(&axis);
-      sides[all[t][f]].insert(static_cast<std::size_t>(2 * axis + (from_centre[axis] > 0)));
-    }
-  EXPECT_EQ(sides.size(), 6U);
-  for (const auto& [label, of_label] : sides) EXPECT_EQ(of_label.size(), 1U);
+    for (std::size_t f = 0; f < faces_[t]; ++f) labels[faces_of_tile_[t][f] / faces_of_side].insert(all[t][f]);
+  std::set<std::size_t> different;
+  for (const auto& of_side : labels) {
+    ASSERT_EQ(of_side.size(), 1U);
+    different.insert(*of_side.begin());
+  }
+  EXPECT_EQ(different.size(), sides);
+
+  // There are fewer colours than sides, but those of neighbours differ.
   const Json segments = Json::parse(content_of(path("report.json")))["segments"];
-  ASSERT_EQ(segments.size(), 6U);
-  for (std::size_t a = 0; a < 6; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      if (*sides[a].begin() / 2 != *sides[b].begin() / 2) {  // they meet
-        EXPECT_NE(segments[a]["color"], segments[b]["color"]);
-      }
+  ASSERT_EQ(segments.size(), sides);
+  std::map<std::array<std::size_t, 2>, std::size_t> side_at;  // by edge
+  for (std::size_t side = 0; side < sides; ++side) {
+    std::size_t from = polyhedron.faces[side].back();
+    for (const std::size_t to : polyhedron.faces[side]) {
+      const auto [place, is_first] = side_at.emplace(std::array{std::min(from, to), std::max(from, to)}, side);
+      from = to;
+      if (is_first) continue;
+      EXPECT_NE(segments[*labels[side].begin()]["color"], segments[*labels[place->second].begin()]["color"]);
+    }
+  }
 }
 
 // ---- Boundaries ----

@@ -149,6 +149,7 @@ struct Turn_sums {
   double turn = 0;                    ///< inward
   double seeded_turn = 0;             ///< weighted as in `seeded_concavity()`
   std::vector<std::uint64_t> counts;  ///< of the inward turns, see `Turn_histogram`
+  std::size_t walls = 0;              ///< edges that are
 };
 
 }  // namespace internal
@@ -222,6 +223,7 @@ struct Tile_seeds {
   std::vector<Probe> probes;          ///< tile by tile
   internal::Mean_concavity ordinary;  ///< means over the edges of all tiles
   std::size_t turned_sides = 0;       ///< sides at which two tiles are not oriented alike; no tile goes on there
+  std::size_t walls = 0;              ///< edges of all tiles that are
   bool are_given = false;             ///< whether they are the user's: each label is a segment
   double seeded_turn = 0;  ///< mean over the edges of all tiles, weighted as in `seeded_concavity()`; 0: it is flat
 };

@@ -83,7 +83,8 @@ struct Tile_surfaces {
   std::vector<internal::Boundary_of_regions<Edge_sums>> boundaries;  ///< between regions, within the tile
   std::vector<internal::Side_value<Side_sums>> sides;                ///< those at its border
   /// Regions on the two sides of a wall in the tile; the lower one first, rising.
-  std::vector<std::array<Dual_mesh::Index, 2>> walls;
+  std::vector<std::array<Dual_mesh::Index, 2>> beside_walls;
+  std::size_t walls = 0;         ///< edges that are, those between tiles counted once
   std::size_t turned_sides = 0;  ///< sides between faces of which one must be turned inside out
 };
 
@@ -93,6 +94,7 @@ struct Merged_surfaces {
   std::vector<std::array<Dual_mesh::Index, 2>> neighbours;  ///< fragments that meet, or have a wall between them
   Merge_tree tree;                                          ///< of the fragments
   std::size_t turned_sides = 0;                             ///< sides at which two tiles are not oriented alike
+  std::size_t walls = 0;                                    ///< edges of all tiles that are
 };
 
 namespace internal {

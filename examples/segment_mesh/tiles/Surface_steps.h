@@ -95,6 +95,7 @@ class Surface_steps {
     segments.suggested = suggested;
     segments.numbers = merged.fragments;
     segments.turned_sides = merged.turned_sides;
+    segments.walls = merged.walls;
     folder_.write("surfaces", surfaces_in_words(plan, noise, regions, merged, segments));
     folder_.write("segments", segments);
   }

@@ -27,6 +27,7 @@ struct Tile_segments {
   std::uint64_t suggested = 0;   ///< segments by the shape
   std::uint64_t components = 0;  ///< connected parts of the whole
   std::uint64_t turned_sides = 0;
+  std::uint64_t walls = 0;  ///< edges that are
 
   RW::Merge_tree tree() const { return {of_fragment.size(), merges}; }
 
@@ -46,6 +47,7 @@ void transfer(Archive& a, Tile_segments& x) {
   a(x.suggested);
   a(x.components);
   a(x.turned_sides);
+  a(x.walls);
 }
 
 /// The segments at a level of a tree.

@@ -259,13 +259,15 @@ class Tile_steps {
                    {"components", all.components},
                    {"fragments", all.of_fragment.size()},
                    {"turned_sides", all.turned_sides},
+                   {"walls", all.walls},
                    {"segments", Json::array()},
                    {"failed", failures()},
                    {"version", version()}};
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
           {{"label", label_of(s)}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});
-    if (!faces.empty() && !options_.has_seeds() && !options_.is_engineering) report["levels"] = all.tree().levels(all.suggested);
+    if (!faces.empty() && !options_.has_seeds() && !options_.is_engineering)
+      report["levels"] = all.tree().levels(all.suggested);
     if (options_.is_engineering)
       surfaces_.complete(report);
     else

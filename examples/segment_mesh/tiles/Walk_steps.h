@@ -213,7 +213,9 @@ class Walk_steps {
     Tile_segments segments = tile_segments(tree, options_.segments.value_or(suggested), areas, neighbours);
     segments.suggested = suggested;
     segments.components = walk.components;
-    segments.turned_sides = folder_.read<RW::Tile_seeds>("seeds").turned_sides;
+    const auto seeds = folder_.read<RW::Tile_seeds>("seeds");
+    segments.turned_sides = seeds.turned_sides;
+    segments.walls = seeds.walls;
     folder_.write("segments", segments);
   }
 

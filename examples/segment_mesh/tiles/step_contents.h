@@ -121,6 +121,7 @@ void transfer(Archive& a, Tile_seeds& x) {
   a(x.ordinary.excess);
   a(x.ordinary.crease_weight);
   a(x.turned_sides);
+  a(x.walls);
   a(x.are_given);
   a(x.seeded_turn);
 }
@@ -208,6 +209,7 @@ void transfer(Archive& a, Tile_surfaces& x) {
   a(x.region_of);
   a(x.boundaries);
   a(x.sides);
+  a(x.beside_walls);
   a(x.walls);
   a(x.turned_sides);
 }
@@ -254,6 +256,7 @@ void transfer(Archive& a, Turn_sums& x) {
   a(x.turn);
   a(x.seeded_turn);
   a(x.counts);
+  a(x.walls);
 }
 
 template <class Archive, class Value>

@@ -376,6 +376,7 @@ inline Turn_sums turn_sums(const Tile_shape& shape, const Own_graph& own, std::s
   for (const auto e : counted) {
     sums.edges += 1;
     sums.length += shape.mesh.edge_length(e);
+    sums.walls += shape.mesh.is_wall(e);
     const double inward = std::max(signed_turns[e], 0.), outward = std::max(-signed_turns[e], 0.);
     sums.turn += inward;
     sums.seeded_turn += inward + seeded_concavity().convex_weight * outward;

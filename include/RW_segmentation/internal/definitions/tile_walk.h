@@ -47,6 +47,7 @@ inline Tile_seeds seeds_without_places(const Tile_plan& plan, const std::vector<
     sums.seeded_turn += outline.turns.seeded_turn;
     Turn_histogram::add(outline.turns.counts, sums.counts);
     seeds.turned_sides += outline.turned_sides;
+    seeds.walls += outline.turns.walls;
   }
   if (sums.edges == 0) return seeds;
   const auto mean_of = [&](double sum) {  // 0 where all is flat

@@ -191,23 +191,25 @@ inline void take_boundaries(const Tile_shape& shape, std::size_t number, const R
     return {length, length * sharpness[e]};
   };
   std::map<std::array<Index, 2>, Edge_sums> boundaries;
-  std::set<std::array<Index, 2>> walls;
+  std::set<std::array<Index, 2>> beside_walls;
   for (Index e = 0; e < mesh.number_of_edges(); ++e) {
     const auto [f, g] = mesh.graph().faces_of(e);
     if (f >= shape.own_faces || g >= shape.own_faces) continue;
+    surfaces.walls += mesh.is_wall(e);
     const auto [a, b] = std::minmax(regions.region_of_face[f], regions.region_of_face[g]);
     if (a == b) continue;
     const std::array<Index, 2> pair = {static_cast<Index>(a), static_cast<Index>(b)};
     if (mesh.is_wall(e))
-      walls.insert(pair);
+      beside_walls.insert(pair);
     else
       boundaries[pair] += sums_of(e);
   }
-  surfaces.walls.assign(walls.begin(), walls.end());
+  surfaces.beside_walls.assign(beside_walls.begin(), beside_walls.end());
   for (const auto& [pair, sums] : boundaries) surfaces.boundaries.push_back({pair, sums});
   for (const auto& shared : shape.shared_edges) {
     const Index e = shared.edge;
     const bool is_owner = number < shared.neighbour;
+    surfaces.walls += is_owner && mesh.is_wall(e);
     const bool is_smooth = angles[e] < tolerance.smooth_angle(mesh.graph().faces_of(e));
     const Tile_surfaces::Side_sums sums = {sums_of(e), is_smooth, mesh.is_wall(e)};
     surfaces.sides.push_back({shared.side, static_cast<Index>(regions.region_of_face[own_face(shape, shared)]), 0,
@@ -290,20 +292,21 @@ inline std::vector<std::size_t> fragments_of_regions(const std::vector<Tile_surf
 }
 
 /// The boundaries between the regions of all tiles, in no order.
-/// \param[out] walls regions on the two sides of a wall
+/// \param[out] beside_walls regions on the two sides of a wall
 inline std::vector<Boundary_of_regions<Edge_sums>> boundaries_of_regions(
     const std::vector<Tile_surfaces>& tiles, const Joined_nodes& nodes,
-    std::vector<std::array<Dual_mesh::Index, 2>>& walls) {
+    std::vector<std::array<Dual_mesh::Index, 2>>& beside_walls) {
   using Index = Dual_mesh::Index;
   std::vector<Boundary_of_regions<Edge_sums>> boundaries;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     for (const auto& [regions, sums] : tiles[t].boundaries)
       boundaries.push_back({{nodes(t, regions[0]), nodes(t, regions[1])}, sums});
-    for (const auto& regions : tiles[t].walls) walls.push_back({nodes(t, regions[0]), nodes(t, regions[1])});
+    for (const auto& regions : tiles[t].beside_walls)
+      beside_walls.push_back({nodes(t, regions[0]), nodes(t, regions[1])});
   }
   nodes.for_each_side(tiles, [&](const auto& owner, Index a, const auto&, Index b) {
     if (owner.value.is_wall)
-      walls.push_back({a, b});
+      beside_walls.push_back({a, b});
     else
       boundaries.push_back({{std::min(a, b), std::max(a, b)}, owner.value.edge});
   });
@@ -324,10 +327,10 @@ RW_SEGMENTATION_INLINE Merged_surfaces merge_tiles(const Tile_plan& plan, const 
   Merged_surfaces merged;
   std::vector<Analytic_surface_cost::Region> of_fragment(count);
   for (std::size_t r = 0; r < regions.size(); ++r) cost.join(of_fragment[fragment[r]], regions[r]);
-  std::vector<std::array<Dual_mesh::Index, 2>> walls;
-  auto boundaries = internal::join_boundaries(internal::boundaries_of_regions(tiles, nodes, walls), fragment);
+  std::vector<std::array<Dual_mesh::Index, 2>> beside_walls;
+  auto boundaries = internal::join_boundaries(internal::boundaries_of_regions(tiles, nodes, beside_walls), fragment);
   for (const auto& boundary : boundaries) merged.neighbours.push_back(boundary.regions);
-  for (const auto& [a, b] : walls)
+  for (const auto& [a, b] : beside_walls)
     merged.neighbours.push_back(
         {static_cast<Dual_mesh::Index>(fragment[a]), static_cast<Dual_mesh::Index>(fragment[b])});
   merged.tree = internal::Region_merging<Analytic_surface_cost>(std::move(of_fragment), std::move(boundaries), cost)
@@ -337,6 +340,7 @@ RW_SEGMENTATION_INLINE Merged_surfaces merge_tiles(const Tile_plan& plan, const 
     for (Dual_mesh::Index r = 0; r < tiles[t].areas.size(); ++r)
       merged.fragments[t].push_back(static_cast<Dual_mesh::Index>(fragment[nodes(t, r)]));
     merged.turned_sides += tiles[t].turned_sides;
+    merged.walls += tiles[t].walls;
   }
   progress(1);
   return merged;
