@@ -144,11 +144,14 @@ collection_test(segment_mesh sh
 
 # Tiles of one mesh, by the recipe.
 if(TARGET segment_mesh AND data_dir)
-  add_test(NAME example.tiles.snakemake
-    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_tiles.sh snakemake $<TARGET_FILE:segment_mesh> ${meshes}
-      ${CMAKE_CURRENT_BINARY_DIR}/tests/tiles.snakemake
-      snakemake --snakefile ${collections}/Snakefile_tiles --cores 2 --config tiles=tiles work=work outputs=outputs)
-  set_tests_properties(example.tiles.snakemake PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+  foreach(options IN ITEMS "" --engineering)
+    add_test(NAME example.tiles.snakemake${options}
+      COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_tiles.sh snakemake $<TARGET_FILE:segment_mesh> ${meshes}
+        ${CMAKE_CURRENT_BINARY_DIR}/tests/tiles.snakemake${options} "${options}"
+        snakemake --snakefile ${collections}/Snakefile_tiles --cores 2
+        --config tiles=tiles work=work outputs=outputs "options=${options}")
+    set_tests_properties(example.tiles.snakemake${options} PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+  endforeach()
 endif()
 
 # The tool's own tests run the tool.

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# tests_tiles.sh PROGRAM SEGMENT_MESH DATA_MESHES FOLDER COMMAND ...
+# tests_tiles.sh PROGRAM SEGMENT_MESH DATA_MESHES FOLDER OPTIONS COMMAND ...
 # Runs a recipe for tiles, of which PROGRAM is needed, on a mesh in one tile and a second tile that touches it nowhere,
-# and compares the labels with those of the tool by itself. Then one of the files in between is lost: the recipe must do what
+# and compares the labels with those of the tool by itself, with OPTIONS. Then one of the files in between is lost: the recipe must do what
 # is left, with the same labels. The recipe works in FOLDER, where it finds `tiles`; it writes `work` and `outputs`. Returns
 # 77 where the program is missing; in CI (CI=true) that is a failure.
 set -euo pipefail
-program=$1 tool=$2 data=$3 folder=$4
-shift 4
+program=$1 tool=$2 data=$3 folder=$4 options=$5
+shift 5
 PATH=$(dirname "$tool"):$PATH
 fail() { echo "FAILED: $1"; exit 1; }
 
@@ -21,10 +21,10 @@ rm -rf "$folder"
 mkdir -p "$folder/tiles" "$folder/expected"
 cd "$folder"
 cp "$data/hand.off" "$data/tripod.off" tiles/
-segment_mesh tiles/hand.off tiles/tripod.off --tiled --quiet --labels expected/%.seg
+segment_mesh tiles/hand.off tiles/tripod.off --tiled --quiet $options --labels expected/%.seg
 
 "$@" || fail "the recipe failed"
 diff -r expected outputs || fail "the recipe gives other labels than the tool"
-rm -r work/walk work/fragments_1 work/regions_1 work/labels_1 work/report outputs/tripod.seg
+rm -r work/noise_of_all work/fragments_1 work/regions_1 work/labels_1 work/report outputs/tripod.seg
 "$@" || fail "the second run failed"
 diff -r expected outputs || fail "the second run gives other labels"

@@ -145,16 +145,6 @@ struct Walled_part {
   }
 };
 
-/// A copy of which one tile names each wall, even if it lies between two.
-inline Cut_mesh with_walls(Cut_mesh mesh, const meshes::Shape& shape, Edges walls) {
-  for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
-    if (walls.erase(edge) == 0) return;
-    const std::size_t t = mesh.place[f].first;
-    mesh.tiles[t].walls.push_back({mesh.number[t].at(edge[0]), mesh.number[t].at(edge[1])});
-  });
-  return mesh;
-}
-
 }  // namespace tiles
 
 #endif

@@ -667,6 +667,96 @@ TEST_F(Tiles, StopWhenAskedTo) {
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos);
 }
 
+// ---- Surfaces ----
+
+/// Four tiles of a shaft with three steps.
+class Tiles_of_shaft : public Tiles {
+ protected:
+  void SetUp() override {
+    Tiles::SetUp();
+    write_tiles(meshes::revolve({{0, -1},
+                                 {0.25, -1},
+                                 {0.5, -1},
+                                 {0.5, -0.5},
+                                 {0.5, 0},
+                                 {0.8, 0},
+                                 {0.8, 0.5},
+                                 {0.8, 1},
+                                 {0.4, 1},
+                                 {0.4, 1.5},
+                                 {0.4, 2},
+                                 {0.2, 2},
+                                 {0, 2}},
+                                48));
+  }
+};
+
+TEST_F(Tiles_of_shaft, HaveTheSurfacesThatTheShaftIsMadeOf) {
+  const Result result = run(command({"--engineering", "--report", "report.json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const Json report = Json::parse(content_of(path("report.json")));
+  std::multiset<std::string> types;
+  std::multiset<int> radii;  // in hundredths
+  for (const Json& segment : report["segments"]) {
+    types.insert(segment["surface"]["type"].get<std::string>());
+    if (segment["surface"].contains("radius"))
+      radii.insert(static_cast<int>(std::lround(100 * segment["surface"]["radius"].get<double>())));
+  }
+  EXPECT_EQ(types,
+            (std::multiset<std::string>{"cylinder", "cylinder", "cylinder", "plane", "plane", "plane", "plane"}));
+  EXPECT_EQ(radii, (std::multiset<int>{40, 50, 80}));
+  EXPECT_EQ(report["noise"], 0);
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_FALSE(report.contains("regular"));
+}
+
+TEST_F(Tiles_of_shaft, HaveTheSameSurfacesStepByStep) {
+  ASSERT_EQ(run(command({"--engineering"})).exit_code, 0);
+  const auto by_one_call = take_labels();
+  const std::set<std::string> of_each_tile = {"survey", "border", "surfaces", "labels"};
+  for (const std::string step : {"survey", "plan", "border", "noise", "surfaces", "merge", "labels", "report"})
+    for (int tile = 3; tile >= (of_each_tile.count(step) > 0 ? 0 : 3); --tile) {
+      std::vector<std::string> more = {"--engineering", "--tile-folder", "work", "--tile-step", step};
+      if (of_each_tile.count(step) > 0) more.insert(more.end(), {"--tile", std::to_string(tile)});
+      const Result result = run(command(more));
+      ASSERT_EQ(result.exit_code, 0) << step << result.errors;
+    }
+  EXPECT_EQ(take_labels(), by_one_call);
+}
+
+TEST_F(Tiles_of_shaft, AreMadeRegularAndMergedFurther) {
+  ASSERT_EQ(run(command({"--engineering", "--regular", "--segments", "3", "--report", "report.json"})).exit_code, 0);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["segments"].size(), 3U);
+  ASSERT_EQ(run(command({"--engineering", "--regular", "--report", "report.json"})).exit_code, 0);
+  const Json regular = Json::parse(content_of(path("report.json")));
+  std::set<std::string> kinds;
+  for (const Json& snap : regular["regular"]) kinds.insert(snap["regularity"].get<std::string>());
+  EXPECT_EQ(kinds.count("coaxial"), 1U);
+}
+
+TEST_F(Tiles_of_shaft, AreReckonedWithTheNoiseThatIsGivenInTheUnitOfTheTiles) {
+  ASSERT_EQ(run(command({"--engineering", "--noise", "0.001", "--report", "report.json"})).exit_code, 0);
+  EXPECT_NEAR(Json::parse(content_of(path("report.json")))["noise"].get<double>(), 0.001, 1e-12);
+}
+
+TEST_F(Tiles_of_shaft, RefuseWhatSurfacesOfTilesLack) {
+  const Result cad = run(command({"--engineering", "--output", "%.step"}));
+  EXPECT_EQ(cad.exit_code, 1);
+  EXPECT_NE(cad.errors.find("CAD files are made of whole meshes"), std::string::npos);
+  const Result step = run(command({"--engineering", "--tile-folder", "work", "--tile-step", "walk"}));
+  EXPECT_EQ(step.exit_code, 1);
+  EXPECT_NE(step.errors.find("walk is no step"), std::string::npos);
+  ASSERT_EQ(run(command({"--engineering", "--tile-folder", "work"})).exit_code, 0);
+  for (const std::vector<std::string>& others : {std::vector<std::string>{}, {"--engineering", "--noise", "0.01"}}) {
+    std::vector<std::string> more = {"--tile-folder", "work"};
+    more.insert(more.end(), others.begin(), others.end());
+    const Result result = run(command(more));
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.errors.find("with other options"), std::string::npos);
+  }
+}
+
 }  // namespace
 
 }  // namespace test_tiles_tool

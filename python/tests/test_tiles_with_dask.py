@@ -51,6 +51,14 @@ def test_labels_are_those_of_the_tool(tool: Path, tiles: list[str], expected: di
     assert contents(tmp_path / "labels") == expected
 
 
+def test_surfaces_are_those_of_the_tool(tool: Path, tiles: list[str], tmp_path: Path) -> None:
+    subprocess.run(
+        [tool, *tiles, "--tiled", "--quiet", "--engineering", "--labels", f"{tmp_path}/%.seg"], check=True
+    )
+    subprocess.run([*command(tmp_path, tiles), "--options=--engineering"], env=environment(tool), check=True)
+    assert contents(tmp_path / "labels") == contents(tmp_path)
+
+
 def test_a_killed_worker_changes_nothing(
     tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
