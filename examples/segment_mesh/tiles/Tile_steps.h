@@ -157,7 +157,7 @@ class Tile_steps {
 
   /// The walls that a file names for a tile.
   Wall_map named_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
-    const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+    Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
     const std::string& path = tasks_[tile].files.constraints;
     if (!path.empty()) mark_constraints(soup.points, read_constraints(path), mesh, walls);
     return walls;
