@@ -6,11 +6,13 @@
 #include "../test/designed_surfaces.h"
 #include "../test/solids.h"
 #include "measurement.h"
+#include "mesh_tiles.h"
 #include "segmentation_measures.h"
 #include "surface_numbers.h"
 
 #include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
+#include <RW_segmentation/tiled_surfaces.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
@@ -188,9 +190,21 @@ void by_shape_diameter(const Mesh& mesh, Label_map labels) {
   CGAL::segmentation_from_sdf_values(mesh, value_map, labels);
 }
 
+/// The mesh cut into eight boxes, segmented tile by tile.
+void by_tiles(const Mesh& mesh, Label_map labels) {
+  constexpr std::size_t boxes = 8;
+  Labels tile = mesh_tiles::cut_by_grid(Dual_mesh_of(mesh), boxes);
+  std::vector<std::vector<Mesh::Face_index>> faces;
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh_tiles::cut(mesh, tile, faces), Tiled_surfaces());
+  const Labels segments = mesh_tiles::of_whole(
+      hierarchy.segments(Cost_threshold_stop(Surface_segmentation().stop_cost)(hierarchy.tree)), faces);
+  for (const auto f : mesh.faces()) put(labels, f, segments[f]);
+}
+
 const std::vector<std::pair<std::string, Method>>& methods() {
   static const std::vector<std::pair<std::string, Method>> all = {
       {"engineering", [](const Mesh& mesh, Label_map labels) { segmentation_into_surfaces(mesh, labels); }},
+      {"tiles", by_tiles},
       {"sharp_edges", by_sharp_edges},
       {"planes", by_planes},
       {"sdf", by_shape_diameter},

@@ -4,6 +4,7 @@
 // it costs.
 
 #include "measurement.h"
+#include "mesh_tiles.h"
 #include "segmentation_measures.h"
 
 #include <RW_segmentation/Conductance.h>
@@ -18,7 +19,6 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <boost/property_map/property_map.hpp>
 
@@ -51,8 +51,8 @@ struct Arguments {
   std::vector<std::string> cuts = {"grid"};
 };
 
+using namespace mesh_tiles;
 using Face = Mesh::Face_index;
-using Labels = std::vector<std::size_t>;
 
 /// A file, or one of CGAL's data meshes, subdivided until it has as many faces as asked for, or up to half as many.
 Mesh read_subdivided(const std::string& name, std::size_t faces) {
@@ -66,26 +66,6 @@ Mesh read_subdivided(const std::string& name, std::size_t faces) {
 }
 
 // ---- Cutting ----
-
-/// The tile of each face by its place: boxes of one size, whose longest side is halved, cut in three and so on until there
-/// are enough.
-Labels cut_by_grid(const Dual_mesh_of<Mesh>& mesh, std::size_t tiles) {
-  Eigen::AlignedBox3d box;
-  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) box.extend(mesh.centroid(f));
-  Eigen::Array3d cells = Eigen::Array3d::Ones();
-  while (cells.prod() < static_cast<double>(tiles)) {
-    Eigen::Index longest = 0;
-    (box.sizes().array() / cells).maxCoeff(&longest);
-    cells[longest] += 1;
-  }
-  Labels tile(mesh.number_of_faces());
-  for (Dual_mesh::Index f = 0; f < tile.size(); ++f) {
-    const Eigen::Array3d place = ((mesh.centroid(f) - box.min()).array() / box.sizes().array() * cells).floor();
-    const Eigen::Array3d cell = place.min(cells - 1).max(0);
-    tile[mesh.face(f)] = static_cast<std::size_t>(cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]));
-  }
-  return tile;
-}
 
 /// The tile of each face by METIS: as many faces in each, and few sides between them.
 Labels cut_by_metis([[maybe_unused]] const Dual_mesh_of<Mesh>& mesh, [[maybe_unused]] std::size_t tiles) {
@@ -107,27 +87,6 @@ Labels cut_by_metis([[maybe_unused]] const Dual_mesh_of<Mesh>& mesh, [[maybe_unu
 #else
   throw std::runtime_error("--cuts metis needs METIS");
 #endif
-}
-
-/// The tiles of a mesh, and by tile the faces of the mesh that it has.
-std::vector<Tile> cut(const Mesh& mesh, Labels& tile_of_face, std::vector<std::vector<Face>>& faces) {
-  std::map<std::size_t, std::size_t> number;  // without gaps
-  for (std::size_t& tile : tile_of_face) tile = number.emplace(tile, number.size()).first->second;
-  std::vector<Tile> tiles(number.size());
-  faces.assign(number.size(), {});
-  std::vector<std::map<Mesh::Vertex_index, Dual_mesh::Index>> vertex(number.size());
-  for (const Face f : mesh.faces()) {
-    const std::size_t t = tile_of_face[f];
-    faces[t].push_back(f);
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      const auto [place, is_new] = vertex[t].emplace(v, static_cast<Dual_mesh::Index>(tiles[t].points.size()));
-      const auto& p = mesh.point(v);
-      if (is_new) tiles[t].points.emplace_back(p.x(), p.y(), p.z());
-      tiles[t].corners.add(place->second);
-    }
-    tiles[t].corners.end_face();
-  }
-  return tiles;
 }
 
 // ---- Measuring ----
@@ -172,17 +131,6 @@ Labels walk_over_faces(const Dual_mesh_of<Mesh>& mesh, const std::map<std::size_
   for (const auto& [label, face] : seeds) walk.add_seed(mesh.face(face), label);
   Labels labels(mesh.number_of_faces());
   walk.segment(boost::make_iterator_property_map(labels.begin(), get(boost::face_index, mesh.mesh())));
-  return labels;
-}
-
-/// Labels by tile and face, as those of the mesh.
-template <class Label>
-Labels of_whole(const std::vector<std::vector<Label>>& of_tiles, const std::vector<std::vector<Face>>& faces) {
-  std::size_t count = 0;
-  for (const auto& of_tile : faces) count += of_tile.size();
-  Labels labels(count);
-  for (std::size_t t = 0; t < faces.size(); ++t)
-    for (std::size_t f = 0; f < faces[t].size(); ++f) labels[faces[t][f]] = of_tiles[t][f];
   return labels;
 }
 

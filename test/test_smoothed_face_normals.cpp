@@ -319,7 +319,8 @@ TEST(Smoothed_face_normals, ComeFromLevelsThatHalveEvenWhereNeighboursAreNumbere
   }
   RW_segmentation::Tile_plan plan;
   plan.total_area = 1;
-  const RW_segmentation::Dual_mesh mesh = RW_segmentation::internal::part_of(plan, std::move(corners), sphere.points);
+  const RW_segmentation::Dual_mesh mesh =
+      RW_segmentation::internal::part_of(plan, std::move(corners), sphere.points, {});
   const auto own = [&](std::uint32_t f) { return mesh.normal(f); };
   const auto diffused = [&](std::size_t shortest_stretch) {
     RW_segmentation::internal::Face_diffusion diffusion(mesh, 1, shortest_stretch);

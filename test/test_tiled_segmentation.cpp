@@ -430,7 +430,7 @@ struct Shaped_tiles {
   std::vector<Tile_outline> outlines;
 
   Shaped_tiles(const std::vector<Tile>& tiles, const Tiled_segmentation& options)
-      : plan(plan_tiles(surveys_of(tiles), options)) {
+      : plan(plan_tiles(surveys_of(tiles), options.tolerance)) {
     std::vector<Tile_noise> noises(tiles.size());
     for (std::size_t t = 0; t < tiles.size(); ++t)
       borders.push_back(border_of_tile(tiles[t], {t, plan}, noises[t], options));
