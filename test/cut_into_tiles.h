@@ -112,7 +112,7 @@ inline Cut_mesh octants(const meshes::Shape& shape) {
 }
 
 /// A copy of which one tile names each wall, even if it lies between two.
-Cut_mesh with_walls(Cut_mesh mesh, const meshes::Shape& shape, Edges walls) {
+inline Cut_mesh with_walls(Cut_mesh mesh, const meshes::Shape& shape, Edges walls) {
   for_each_side(shape, [&](std::size_t f, const std::array<std::size_t, 2>& edge) {
     if (walls.erase(edge) == 0) return;
     const std::size_t t = mesh.place[f].first;

@@ -69,11 +69,11 @@ constexpr std::array<Help_section, 8> help_sections = {{
      "With --tiled, the meshes are tiles of one mesh that may be larger than the memory. Segments, labels and the one\n"
      "--report are those of the whole; outputs with % are written for each tile. Seeds are points, each for the "
      "closest\n"
-     "face of all tiles. --smooth and --refine leave the borders of tiles as they are. Workers are processes of their\n"
-     "own: one that is killed is started again. A tile that cannot be read is told at the end, and the exit code is "
-     "6;\n"
-     "the others have their segments. --tile-step does one step, as Snakemake, Dask and others that share jobs among\n"
-     "machines need it; examples/collections has recipes.\n",
+     "face of all tiles. With --engineering, surfaces go on from tile to tile. --smooth and --refine leave the "
+     "borders\n"
+     "of tiles as they are. Workers are processes of their own: one that is killed is started again. A tile that\n"
+     "cannot be read is told at the end, and the exit code is 6; the others have their segments. --tile-step does one\n"
+     "step, as Snakemake, Dask and others that share jobs among machines need it; examples/collections has recipes.\n",
      false},
     {"Exit codes",
      "  0  success\n"
@@ -99,7 +99,8 @@ constexpr std::array<Help_section, 8> help_sections = {{
      "  segment_mesh part.stl --seed 0.1,2,3=5 --seed 812=5 --seed 44=9 --labels part.seg\n"
      "  segment_mesh meshes/*.off --labels out/%.seg --output out/%.ply --report out/report.jsonl --resume\n"
      "  segment_mesh tiles/*.ply --tiled --workers 8 --labels out/%.seg --tile-folder work\n"
-     "  segment_mesh tiles/*.ply --tiled --seeds-file seeds.txt --labels out/%.seg --tile-folder work\n",
+     "  segment_mesh tiles/*.ply --tiled --seeds-file seeds.txt --labels out/%.seg --tile-folder work\n"
+     "  segment_mesh tiles/*.stl --tiled --engineering --labels out/%.seg --report report.json\n",
      true},
 }};
 
