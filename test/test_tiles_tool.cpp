@@ -613,7 +613,7 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
 }
 
 TEST_F(Tiles, RefuseWhatTheyCannotHave) {
-  for (const std::vector<std::string>& options : {std::vector<std::string>{"--engineering"},
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--coarse"},
                                                   {"--seed", "3"},
                                                   {"--seed", "1,2,3", "--segments", "2"},
                                                   {"--seed", "1,2,3", "--probabilities", "%.txt"},
