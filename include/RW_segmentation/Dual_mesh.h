@@ -113,9 +113,9 @@ class Dual_mesh {
   std::size_t number_of_degenerate_faces() const { return geometry_->degenerate_faces; }
 
   /// Whether any edge is a wall.
-  bool has_walls() const { return !arrays_->is_wall.empty(); }
+  bool has_walls() const { return !is_wall_->empty(); }
   /// Whether no stage crosses an edge.
-  bool is_wall(Index edge) const { return has_walls() && arrays_->is_wall[edge]; }
+  bool is_wall(Index edge) const { return has_walls() && (*is_wall_)[edge]; }
 
   /// The length of 1 in the unit of the mesh's coordinates.
   double unit() const { return box_.unit; }
@@ -134,6 +134,10 @@ class Dual_mesh {
   /// \param points by vertex, in the unit box, which stays what it is
   Dual_mesh with_points(std::vector<Eigen::Vector3d> points) const;
 
+  /// This mesh with other walls.
+  /// \param is_wall by edge; empty: no edge is
+  Dual_mesh with_walls(std::vector<char> is_wall) const;
+
   /// This mesh as a part of a larger one, whose total area it then tells for its own: lengths that are fractions of
   /// `length_unit()` are those of the whole.
   /// \param area_of_whole in the unit box
@@ -146,6 +150,7 @@ class Dual_mesh {
   std::shared_ptr<const Arrays> arrays_;
   std::shared_ptr<const internal::Face_geometry> geometry_;
   std::shared_ptr<const std::vector<Eigen::Vector3d>> points_, shape_normals_;  // without the latter: the faces' own
+  std::shared_ptr<const std::vector<char>> is_wall_;
 };
 
 namespace internal {

@@ -52,14 +52,15 @@ struct Segments_on_surfaces {
 };
 
 /// Surfaces, the walk between them, merging.
-/// \param mesh that has its own normals or none
-Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
-                                           const Progress& progress, Segmentation_report& report, Stage_clock& clock);
-
-/// As above, with a tolerance by the noise.
 /// \param noise negative: estimated
 Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise, const Progress& progress,
                                            Segmentation_report& report, Stage_clock& clock);
+
+/// The walk between surfaces that were found, and merging.
+/// \param region_of_face see `Analytic_regions`
+Segments_on_surfaces segments_of_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                         const std::vector<std::size_t>& region_of_face, const Progress& progress,
+                                         Stage_clock& clock);
 
 }  // namespace internal
 

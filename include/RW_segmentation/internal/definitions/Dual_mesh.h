@@ -120,6 +120,7 @@ RW_SEGMENTATION_INLINE Dual_mesh::Dual_mesh(Arrays arrays, const internal::Unit_
       std::make_shared<const internal::Face_geometry>(arrays.points, arrays.corners, arrays.edge_ends, box_.rounding);
   arrays_ = std::make_shared<const Arrays>(std::move(arrays));
   points_ = {arrays_, &arrays_->points};
+  is_wall_ = {arrays_, &arrays_->is_wall};
 }
 
 RW_SEGMENTATION_INLINE Eigen::Vector3d Dual_mesh::normal(Index face) const {
@@ -144,6 +145,12 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_points(std::vector<Eigen::Vecto
   result.geometry_ = std::make_shared<const internal::Face_geometry>(*result.points_, arrays_->corners,
                                                                      arrays_->edge_ends, box_.rounding);
   result.shape_normals_ = nullptr;
+  return result;
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_walls(std::vector<char> is_wall) const {
+  Dual_mesh result = *this;
+  result.is_wall_ = std::make_shared<const std::vector<char>>(std::move(is_wall));
   return result;
 }
 

@@ -25,33 +25,25 @@ inline std::vector<double> conductances_beside_surfaces(const Dual_mesh& mesh) {
   return conductances(mesh, Dihedral_difference_policy{every_crease, Dihedral_measure::angle}(mesh), sigma, cap);
 }
 
-RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& shape,
-                                                                  const Surface_tolerance& tolerance,
-                                                                  const Progress& progress, Segmentation_report& report,
-                                                                  Stage_clock& clock) {
-  const Analytic_regions regions = find_analytic_regions(shape, tolerance, progress.part(0, 0.8));
-  clock.note("surfaces");
-
-  const std::vector<double> conductance = conductances_beside_surfaces(shape);
-  Region_fragments fragments(shape, tolerance, conductance);
+RW_SEGMENTATION_INLINE Segments_on_surfaces segments_of_regions(const Dual_mesh& mesh,
+                                                                const Surface_tolerance& tolerance,
+                                                                const std::vector<std::size_t>& region_of_face,
+                                                                const Progress& progress, Stage_clock& clock) {
+  const std::vector<double> conductance = conductances_beside_surfaces(mesh);
+  Region_fragments fragments(mesh, tolerance, conductance);
   Segments_on_surfaces result;
-  result.fragment_of_face = fragments.fragments(regions.region_of_face, progress.part(0.8, 0.85));
+  result.fragment_of_face = fragments.fragments(region_of_face, progress.part(0, 0.25));
   result.is_given = fragments.given();
   clock.note("walk");
-
-  report.components = Components(shape.graph(), [&](Dual_mesh::Index e) { return !shape.is_wall(e); }).count;
-  report.noise = tolerance.noise;
-  report.seeds = regions.surfaces.size();
-  report.fragments = *std::max_element(result.fragment_of_face.begin(), result.fragment_of_face.end()) + 1;
-  report.degenerate_faces = shape.number_of_degenerate_faces();
-  const Analytic_surface_cost cost(shape, tolerance);
+  const std::size_t count = *std::max_element(result.fragment_of_face.begin(), result.fragment_of_face.end()) + 1;
+  const Analytic_surface_cost cost(mesh, tolerance);
   auto region_of = [&](Dual_mesh::Index f) {
-    return result.is_given[f] ? Analytic_surface_cost::Region() : cost.region(shape, f);
+    return result.is_given[f] ? Analytic_surface_cost::Region() : cost.region(mesh, f);
   };
   result.tree = Region_merging<Analytic_surface_cost>(
-                    join_faces(result.fragment_of_face, report.fragments, cost, region_of),
-                    region_boundaries(shape, result.fragment_of_face, edge_sharpness(shape, tolerance), cost), cost)
-                    .run(progress.part(0.85, 1));
+                    join_faces(result.fragment_of_face, count, cost, region_of),
+                    region_boundaries(mesh, result.fragment_of_face, edge_sharpness(mesh, tolerance), cost), cost)
+                    .run(progress.part(0.25, 1));
   clock.note("merging");
   progress(1);
   return result;
@@ -63,7 +55,16 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   const Dual_mesh shape = with_stored_normals(mesh);
   const Surface_tolerance tolerance = surface_tolerance(shape, noise);
   clock.note("noise");
-  return segment_into_surfaces(shape, tolerance, progress, report, clock);
+  const Analytic_regions regions = find_analytic_regions(shape, tolerance, progress.part(0, 0.8));
+  clock.note("surfaces");
+  Segments_on_surfaces result =
+      segments_of_regions(shape, tolerance, regions.region_of_face, progress.part(0.8, 1), clock);
+  report.components = Components(shape.graph(), [&](Dual_mesh::Index e) { return !shape.is_wall(e); }).count;
+  report.noise = tolerance.noise;
+  report.seeds = regions.surfaces.size();
+  report.fragments = result.tree.number_of_fragments();
+  report.degenerate_faces = shape.number_of_degenerate_faces();
+  return result;
 }
 
 }  // namespace RW_segmentation::internal

@@ -10,6 +10,7 @@
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
+#include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
@@ -144,11 +145,35 @@ struct Regions_of_part {
   std::size_t count = 0;
 };
 
+/// Walls round what no surface explains in the halo, but for faces beside the tile: it may be part of a surface that goes on
+/// where the tile does not see it, and says nothing about the faces beside it.
+inline std::vector<char> walls_round_unexplained_halo(const Tile_shape& shape,
+                                                      const std::vector<std::size_t>& region_of_face) {
+  using Index = Dual_mesh::Index;
+  std::vector<char> is_beside_tile(shape.mesh.number_of_faces(), false);
+  for (const auto& shared : shape.shared_edges)
+    for (const Index f : shape.mesh.graph().faces_of(shared.edge)) is_beside_tile[f] = true;
+  const auto is_unclear = [&](Index f) {
+    return f >= shape.own_faces && region_of_face[f] == Analytic_regions::none && !is_beside_tile[f];
+  };
+  std::vector<char> is_wall;
+  is_wall.reserve(shape.mesh.number_of_edges());
+  for (Index e = 0; e < shape.mesh.number_of_edges(); ++e) {
+    const auto [f, g] = shape.mesh.graph().faces_of(e);
+    is_wall.push_back(shape.mesh.is_wall(e) || is_unclear(f) != is_unclear(g));
+  }
+  return is_wall;
+}
+
 inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_tolerance& tolerance,
                                        const Progress& progress) {
-  Segmentation_report report;
-  Stage_clock clock(report.stages);
-  const Segments_on_surfaces found = segment_into_surfaces(shape.mesh, tolerance, progress, report, clock);
+  std::vector<Segmentation_report::Stage> stages;
+  Stage_clock clock(stages);
+  const Dual_mesh mesh = with_stored_normals(shape.mesh);
+  const Analytic_regions surfaces = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));
+  const Segments_on_surfaces found =
+      segments_of_regions(mesh.with_walls(walls_round_unexplained_halo(shape, surfaces.region_of_face)), tolerance,
+                          surfaces.region_of_face, progress.part(0.8, 1), clock);
   const std::vector<std::size_t> segment =
       found.tree.segment_of_fragments(Cost_threshold_stop(Surface_segmentation().stop_cost)(found.tree));
   Regions_of_part regions;
