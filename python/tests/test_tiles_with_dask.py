@@ -52,9 +52,7 @@ def test_labels_are_those_of_the_tool(tool: Path, tiles: list[str], expected: di
 
 
 def test_surfaces_are_those_of_the_tool(tool: Path, tiles: list[str], tmp_path: Path) -> None:
-    subprocess.run(
-        [tool, *tiles, "--tiled", "--quiet", "--engineering", "--labels", f"{tmp_path}/%.seg"], check=True
-    )
+    subprocess.run([tool, *tiles, "--tiled", "--quiet", "--engineering", "--labels", f"{tmp_path}/%.seg"], check=True)
     subprocess.run([*command(tmp_path, tiles), "--options=--engineering"], env=environment(tool), check=True)
     assert contents(tmp_path / "labels") == contents(tmp_path)
 

@@ -145,24 +145,45 @@ struct Regions_of_part {
   std::size_t count = 0;
 };
 
-/// Walls round what no surface explains in the halo, but for faces beside the tile: it may be part of a surface that goes on
-/// where the tile does not see it, and says nothing about the faces beside it.
-inline std::vector<char> walls_round_unexplained_halo(const Tile_shape& shape,
-                                                      const std::vector<std::size_t>& region_of_face) {
+/// Faces at the rim of the halo that no surface explains, and those beside them, up to the tile: they may be part of a
+/// surface that goes on where the tile does not see it.
+inline std::vector<char> unclear_halo(const Tile_shape& shape, const std::vector<std::size_t>& region_of_face) {
   using Index = Dual_mesh::Index;
-  std::vector<char> is_beside_tile(shape.mesh.number_of_faces(), false);
+  const Dual_graph& graph = shape.mesh.graph();
+  std::vector<char> is_beside_tile(graph.number_of_faces(), false), is_unclear(graph.number_of_faces(), false);
   for (const auto& shared : shape.shared_edges)
-    for (const Index f : shape.mesh.graph().faces_of(shared.edge)) is_beside_tile[f] = true;
-  const auto is_unclear = [&](Index f) {
-    return f >= shape.own_faces && region_of_face[f] == Analytic_regions::none && !is_beside_tile[f];
+    for (const Index f : graph.faces_of(shared.edge)) is_beside_tile[f] = true;
+  std::vector<Index> open;
+  const auto reach = [&](Index f) {
+    if (f < shape.own_faces || is_unclear[f] || is_beside_tile[f] || region_of_face[f] != Analytic_regions::none)
+      return;
+    is_unclear[f] = true;
+    open.push_back(f);
   };
-  std::vector<char> is_wall;
-  is_wall.reserve(shape.mesh.number_of_edges());
-  for (Index e = 0; e < shape.mesh.number_of_edges(); ++e) {
-    const auto [f, g] = shape.mesh.graph().faces_of(e);
-    is_wall.push_back(shape.mesh.is_wall(e) || is_unclear(f) != is_unclear(g));
+  for (auto f = static_cast<Index>(shape.own_faces); f < graph.number_of_faces(); ++f)
+    if (graph.neighbours(f).size() < shape.mesh.corners(f).size()) reach(f);
+  while (!open.empty()) {
+    const Index f = open.back();
+    open.pop_back();
+    for (const auto& neighbour : graph.neighbours(f)) reach(neighbour.face);
   }
-  return is_wall;
+  return is_unclear;
+}
+
+/// The part for what is done with the surfaces found: on a clean mesh a few flat triangles may be a face of the solid, and
+/// walls keep apart from them what is unclear.
+inline Dual_mesh without_unclear_halo(const Tile_shape& shape, const Dual_mesh& mesh,
+                                      const Surface_tolerance& tolerance,
+                                      const std::vector<std::size_t>& region_of_face) {
+  if (tolerance.is_noisy()) return mesh;
+  const std::vector<char> is_unclear = unclear_halo(shape, region_of_face);
+  std::vector<char> is_wall;
+  is_wall.reserve(mesh.number_of_edges());
+  for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto [f, g] = mesh.graph().faces_of(e);
+    is_wall.push_back(mesh.is_wall(e) || is_unclear[f] != is_unclear[g]);
+  }
+  return mesh.with_walls(std::move(is_wall));
 }
 
 inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_tolerance& tolerance,
@@ -172,7 +193,7 @@ inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_to
   const Dual_mesh mesh = with_stored_normals(shape.mesh);
   const Analytic_regions surfaces = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));
   const Segments_on_surfaces found =
-      segments_of_regions(mesh.with_walls(walls_round_unexplained_halo(shape, surfaces.region_of_face)), tolerance,
+      segments_of_regions(without_unclear_halo(shape, mesh, tolerance, surfaces.region_of_face), tolerance,
                           surfaces.region_of_face, progress.part(0.8, 1), clock);
   const std::vector<std::size_t> segment =
       found.tree.segment_of_fragments(Cost_threshold_stop(Surface_segmentation().stop_cost)(found.tree));
