@@ -158,13 +158,19 @@ TEST(TiledSurfaces, GoOnWhereAFreeFormDoes) {
 
 // ---- Noise ----
 
-Surface_noise noise_of(const std::vector<Tile>& tiles) {
+std::vector<Tile_neighbourhoods> neighbourhoods_of(const std::vector<Tile>& tiles, Tile_plan& plan) {
   std::vector<Tile_survey> surveys;
   for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
-  const Tile_plan plan = plan_tiles(surveys);
+  plan = plan_tiles(surveys);
   std::vector<Tile_neighbourhoods> neighbourhoods(tiles.size());
   for (std::size_t t = 0; t < tiles.size(); ++t)
     border_of_tile(tiles[t], {t, plan}, neighbourhoods[t], Tiled_surfaces());
+  return neighbourhoods;
+}
+
+Surface_noise noise_of(const std::vector<Tile>& tiles) {
+  Tile_plan plan;
+  const auto neighbourhoods = neighbourhoods_of(tiles, plan);
   return noise_of_tiles(plan, neighbourhoods);
 }
 
@@ -178,6 +184,17 @@ TEST(TiledSurfaces, EstimateTheNoiseOfTheWhole) {
     const Surface_noise tiled = noise_of(octants(shape_of(solid)).tiles);
     EXPECT_NEAR(tiled.deviation, whole.noise, 0.1 * whole.noise);
     EXPECT_EQ(internal::may_be_independent(tiled.kind), !is_scanned);
+  }
+}
+
+TEST(TiledSurfaces, LookAtAsManyNeighbourhoodsHoweverManyTilesThereAre) {
+  const Shape shape = shape_of(solids::pipe_elbow(solids::even(0.1)));
+  for (const std::size_t tiles : {1, 8, 200}) {
+    Tile_plan plan;
+    std::size_t count = 0;
+    for (const auto& of_tile : neighbourhoods_of(slices(shape, tiles).tiles, plan)) count += of_tile.middles.size();
+    EXPECT_GE(count, 300U) << tiles;
+    EXPECT_LE(count, 900U) << tiles;
   }
 }
 

@@ -42,7 +42,8 @@ namespace RW_segmentation {
 struct Tiled_surfaces {
   /// Standard deviation of the vertices, as a part of the diagonal of the whole; negative: estimated.
   double noise = -1;
-  /// How far a tile sees of its neighbours, in mean edge lengths of these.
+  /// How far a tile sees of its neighbours, in mean edge lengths of these. At 6, 12 and 25, 1.07 times the true segments on
+  /// CAD solids in eight boxes (`benchmark_engineering --method tiles`, `_5k`) and the same Rand error.
   double halo = 8;
   /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
   double tolerance = 0;
@@ -58,7 +59,7 @@ struct Sampled_faces {
 
 /// What `noise_of_tiles()` needs of a tile: neighbourhoods all over it.
 struct Tile_neighbourhoods {
-  Sampled_faces faces;
+  Sampled_faces faces;                    ///< of all neighbourhoods
   std::vector<Dual_mesh::Index> middles;  ///< those of these that neighbourhoods are about
 };
 
@@ -131,6 +132,7 @@ Surface_noise noise_of_tiles(const Tile_plan& plan, const std::vector<Tile_neigh
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
 /// \param noise of the whole
 /// \param[out] surfaces what the next step needs
+/// \param options its `wall_angle`
 /// \returns the region of each face of the tile, numbered from 0
 /// Complexity: that of `segmentation_into_surfaces()`.
 /// \throws std::invalid_argument, Cancelled

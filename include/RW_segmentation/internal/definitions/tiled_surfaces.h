@@ -80,7 +80,7 @@ Dual_mesh mesh_of_samples(const Tile_plan& plan, const std::vector<OfTile>& tile
 }
 
 /// Takes the faces that an estimate of the noise looks at.
-inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, std::size_t faces_of_whole) {
+inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, const Tile_in_plan& place) {
   using Index = Dual_mesh::Index;
   // Neighbourhoods end at sharp edges, but not here: they reach farther where they are narrow.
   constexpr std::size_t vertices = 2 * Noise_estimate::most_vertices;
@@ -93,7 +93,10 @@ inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, std::size_t 
     if (is_new) place->second = sampling.add(f);
     return place->second;
   };
-  for (const Index f : noise_trials(mesh.number_of_faces(), faces_of_whole)) {
+  const auto& [tile, plan] = place;
+  const double share_before = plan.total_area > 0 ? plan.tiles[tile].area_before / plan.total_area : 0;
+  const auto faces_before = static_cast<std::size_t>(share_before * static_cast<double>(plan.faces));  // roughly
+  for (const Index f : noise_trials(mesh.number_of_faces(), plan.faces, faces_before)) {
     for (const Index g : patches.neighbourhood(f, vertices).faces) copy(g);
     result.middles.push_back(copy(f));
   }
@@ -109,7 +112,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
     throw internal::argument_error("halo", options.halo, "a finite number >= 0");
   const auto& [number, plan] = place;
   const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), {});
-  neighbourhoods = internal::neighbourhoods_in(mesh, plan.faces);
+  neighbourhoods = internal::neighbourhoods_in(mesh, place);
   Tile_border border;
   border.width = options.halo * mesh.mean_edge_length();
   internal::take_border(mesh, plan.tiles[number].shared_vertices, tile.walls, border);
