@@ -542,7 +542,8 @@ TEST_F(Tiles_of_ball, HaveTheLabelsOfFacesAroundWhenRefined) {
     }
   }
   EXPECT_GT(cut, 100U);
-  for (const Json& segment : Json::parse(content_of(path("report.json")))["segments"])
+  const Json report = Json::parse(content_of(path("report.json")));
+  for (const Json& segment : report["segments"])
     EXPECT_EQ(segment["faces"], faces[segment["label"].get<std::size_t>()]);
 }
 
