@@ -189,7 +189,7 @@ TEST(TiledSurfaces, EstimateTheNoiseOfTheWhole) {
 
 TEST(TiledSurfaces, LookAtAsManyNeighbourhoodsHoweverManyTilesThereAre) {
   const Shape shape = shape_of(solids::pipe_elbow(solids::even(0.1)));
-  for (const std::size_t tiles : {1, 8, 200}) {
+  for (const std::size_t tiles : {1U, 8U, 200U}) {
     Tile_plan plan;
     std::size_t count = 0;
     for (const auto& of_tile : neighbourhoods_of(slices(shape, tiles).tiles, plan)) count += of_tile.middles.size();
