@@ -211,7 +211,8 @@ inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_to
   return regions;
 }
 
-/// The most samples of a region in one tile.
+/// The most samples of a region in one tile. With 80 and 500, `benchmark_engineering --method tiles` has the overlaps .973 and
+/// .973 on CAD solids (`_5k`), .871 and .873 under noise of .1 %; with 200 .973 and .873.
 constexpr std::size_t samples_of_region = 200;
 
 /// Takes samples of the regions, from the halo as well.
