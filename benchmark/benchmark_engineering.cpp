@@ -195,7 +195,7 @@ void by_tiles(const Mesh& mesh, Label_map labels) {
   constexpr std::size_t boxes = 8;
   Labels tile = mesh_tiles::cut_by_grid(Dual_mesh_of(mesh), boxes);
   std::vector<std::vector<Mesh::Face_index>> faces;
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh_tiles::cut(mesh, tile, faces), Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh_tiles::cut(mesh, tile, faces));
   const Labels segments = mesh_tiles::of_whole(
       hierarchy.segments(Cost_threshold_stop(Surface_segmentation().stop_cost)(hierarchy.tree)), faces);
   for (const auto f : mesh.faces()) put(labels, f, segments[f]);

@@ -49,7 +49,7 @@ std::size_t segments_by_shape(const Tiled_surface_hierarchy& hierarchy) {
 
 /// The segments of a mesh in tiles, in the order of its faces.
 Labels segments_of(const Cut_mesh& mesh, const Tiled_surfaces& options = {}) {
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, options);
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles, options);
   return mesh.of_whole(hierarchy.segments(segments_by_shape(hierarchy)));
 }
 
@@ -110,7 +110,7 @@ struct Given_cylinder {
 
 TEST(TiledSurfaces, HaveTheNumbersOfTheWholeInTheCoordinatesOfTheTiles) {
   const Given_cylinder given;
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(slices(given.shape(), 7).tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(slices(given.shape(), 7).tiles);
   ASSERT_EQ(segments_by_shape(hierarchy), 1U);
   const Analytic_surface surface = hierarchy.surfaces(1)[0];
   ASSERT_EQ(surface.type, Surface_type::cylinder);
@@ -140,7 +140,7 @@ Shape waves() {
 TEST(TiledSurfaces, GoOnWhereAFreeFormDoes) {
   const Shape shape = waves();
   const Cut_mesh mesh = slices(shape, 4);
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   const std::size_t segments = segments_by_shape(hierarchy);
   const auto labels = hierarchy.segments(segments);
   std::vector<std::size_t> faces(segments, 0);
@@ -202,7 +202,7 @@ TEST(TiledSurfaces, ReckonWithTheNoiseThatIsGiven) {
   Tiled_surfaces options;
   options.noise = 0.01;
   const Shape shape = shape_of(solids::box(solids::even(0.3)));
-  EXPECT_EQ(hierarchy_of_tiles(slices(shape, 2).tiles, options).noise.deviation, 0.01);
+  EXPECT_EQ(hierarchy_of_tiled_surfaces(slices(shape, 2).tiles, options).noise.deviation, 0.01);
 }
 
 // ---- Steps ----
@@ -219,15 +219,15 @@ TEST(TiledSurfaces, AreTheSameForTilesInAnotherOrder) {
 TEST(TiledSurfaces, AreTheSameWithAndWithoutThreads) {
   const Cut_mesh mesh = octants(shape_of(solids::flange(solids::even(0.15))));
   const Tiled_surfaces options;
-  const auto one = hierarchy_of_tiles<CGAL::Sequential_tag>(mesh.tiles, options);
-  const auto many = hierarchy_of_tiles(mesh.tiles, options);
+  const auto one = hierarchy_of_tiled_surfaces<CGAL::Sequential_tag>(mesh.tiles, options);
+  const auto many = hierarchy_of_tiled_surfaces(mesh.tiles, options);
   EXPECT_EQ(one.fragment_of_face, many.fragment_of_face);
   EXPECT_EQ(segments_by_shape(one), segments_by_shape(many));
 }
 
 TEST(TiledSurfaces, KeepSamplesOfEachRegionAndNoMore) {
   const Cut_mesh mesh = octants(shape_of(solids::stepped_shaft(solids::even(0.05))));
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   std::size_t most = 0;
   for (const Tile_surfaces& tile : hierarchy.regions) {
     std::map<Index, std::size_t> samples;
@@ -241,7 +241,7 @@ TEST(TiledSurfaces, KeepSamplesOfEachRegionAndNoMore) {
 TEST(TiledSurfaces, HaveAreasThatAddUpToTheWhole) {
   const Cut_mesh mesh = octants(shape_of(solids::capsule(solids::even(0.15))));
   double sum = 0;
-  for (const Tile_surfaces& tile : hierarchy_of_tiles(mesh.tiles, Tiled_surfaces()).regions)
+  for (const Tile_surfaces& tile : hierarchy_of_tiled_surfaces(mesh.tiles).regions)
     for (const double area : tile.areas) sum += area;
   EXPECT_NEAR(sum, 1, 1e-9);
 }
@@ -254,7 +254,7 @@ TEST(TiledSurfaces, EndAtWalls) {
   const Walled_part upper(shape, is_upper);
   for (const Cut_mesh& open : {octants(shape), slices(shape, 5), cut(shape, 2, is_upper)}) {
     const Cut_mesh mesh = with_walls(open, shape, upper.walls);
-    const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+    const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
     EXPECT_EQ(hierarchy.components, 2U);
     EXPECT_EQ(hierarchy.merged.walls, 60U);  // once round, the ends of the tube left out
     EXPECT_EQ(upper.on_both_sides(mesh.of_whole(hierarchy.segments(2))).size(), 0U);
@@ -271,7 +271,7 @@ TEST(TiledSurfaces, EndAtSharpEdgesWhereTheseAreWalls) {
   options.wall_angle = 5 * degree;  // below the 7.5 degrees that the tube turns along an edge
   const Shape shape = meshes::tube(2, 48, 3);
   for (const Cut_mesh& mesh : {slices(shape, 1), octants(shape)}) {
-    const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, options);
+    const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles, options);
     EXPECT_EQ(hierarchy.components, 48U);
   }
 }
@@ -279,18 +279,18 @@ TEST(TiledSurfaces, EndAtSharpEdgesWhereTheseAreWalls) {
 TEST(TiledSurfaces, OfPolygonsOfEmptyTilesAndOfNoTilesAreFound) {
   Cut_mesh mesh = octants(meshes::cube_of_quads());
   mesh.tiles.emplace_back();
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   ASSERT_EQ(segments_by_shape(hierarchy), 6U);
   for (const Analytic_surface& surface : hierarchy.surfaces(6)) EXPECT_EQ(surface.type, Surface_type::plane);
   EXPECT_TRUE(hierarchy.fragment_of_face.back().empty());
-  EXPECT_EQ(hierarchy_of_tiles({}, Tiled_surfaces()).tree.number_of_fragments(), 0U);
-  EXPECT_EQ(hierarchy_of_tiles({Tile()}, Tiled_surfaces()).tree.number_of_fragments(), 0U);
+  EXPECT_EQ(hierarchy_of_tiled_surfaces({}).tree.number_of_fragments(), 0U);
+  EXPECT_EQ(hierarchy_of_tiled_surfaces({Tile()}).tree.number_of_fragments(), 0U);
 }
 
 TEST(TiledSurfaces, OfTilesThatTouchNowhereStayApart) {
   const Shape shape = meshes::together(meshes::cube(4), meshes::moved(meshes::cube(4), {3, 0, 0}));
   const Cut_mesh mesh = slices(shape, 2);
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   EXPECT_EQ(hierarchy.components, 2U);
   EXPECT_EQ(segments_by_shape(hierarchy), 12U);
 }
@@ -305,7 +305,7 @@ TEST(TiledSurfaces, DoNotGoOnWhereATileIsInsideOut) {
     turned.end_face();
   }
   tile.corners = turned;
-  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles, Tiled_surfaces());
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   EXPECT_GT(hierarchy.turned_sides, 0U);
   EXPECT_EQ(hierarchy.components, 2U);
 }
@@ -318,30 +318,30 @@ TEST(TiledSurfaces, RefuseNumbersOutOfRange) {
            [](Tiled_surfaces&o, double x) { o.tolerance = x; }}) {
     Tiled_surfaces options;
     change(options, infinity);
-    EXPECT_THROW(hierarchy_of_tiles(mesh.tiles, options), std::invalid_argument);
+    EXPECT_THROW(hierarchy_of_tiled_surfaces(mesh.tiles, options), std::invalid_argument);
   }
   Tiled_surfaces options;
   options.halo = -1;
-  EXPECT_THROW(hierarchy_of_tiles(mesh.tiles, options), std::invalid_argument);
+  EXPECT_THROW(hierarchy_of_tiled_surfaces(mesh.tiles, options), std::invalid_argument);
   options = {};
   options.wall_angle = -1;
-  EXPECT_THROW(hierarchy_of_tiles(mesh.tiles, options), std::invalid_argument);
+  EXPECT_THROW(hierarchy_of_tiled_surfaces(mesh.tiles, options), std::invalid_argument);
 }
 
 TEST(TiledSurfaces, ReportTheirProgressAndCanBeCancelled) {
   const Cut_mesh mesh = octants(shape_of(solids::box(solids::even(0.2))));
   std::vector<double> told;
-  hierarchy_of_tiles(mesh.tiles, Tiled_surfaces(), Progress([&](double done) {
-                       told.push_back(done);
-                       return true;
-                     }));
+  hierarchy_of_tiled_surfaces(mesh.tiles, Tiled_surfaces(), Progress([&](double done) {
+                                told.push_back(done);
+                                return true;
+                              }));
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
   EXPECT_EQ(told.back(), 1);
   EXPECT_GE(std::set<double>(told.begin(), told.end()).size(), 10U);
   for (const std::size_t calls : {std::size_t(1), told.size() / 2, told.size()}) {
     std::size_t left = calls;
     const Progress progress([&](double) { return --left > 0; });
-    EXPECT_THROW(hierarchy_of_tiles(mesh.tiles, Tiled_surfaces(), progress), Cancelled);
+    EXPECT_THROW(hierarchy_of_tiled_surfaces(mesh.tiles, Tiled_surfaces(), progress), Cancelled);
   }
 }
 

@@ -174,24 +174,25 @@ struct Tiled_surface_hierarchy : Tiled_hierarchy {
 
 namespace internal {
 
-Tiled_surface_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_surfaces& options,
-                                           const Progress& progress);
+Tiled_surface_hierarchy hierarchy_of_tiled_surfaces(const std::vector<Tile>& tiles, const Tiled_surfaces& options,
+                                                    const Progress& progress);
 
 }  // namespace internal
 
 /// Segments tiles that fit into memory together into surfaces: all steps, one after the other.
 ///
 /// \code
-/// const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiles({Tile_of(north), Tile_of(south)}, Tiled_surfaces());
+/// const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces({Tile_of(north), Tile_of(south)});
 /// const std::size_t segments = Cost_threshold_stop(1)(hierarchy.tree);
 /// const auto labels = hierarchy.segments(segments);  // by tile and face
 /// for (const Analytic_surface& surface : hierarchy.surfaces(segments)) ...
 /// \endcode
 /// \throws std::invalid_argument, Cancelled
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-Tiled_surface_hierarchy hierarchy_of_tiles(const std::vector<Tile>& tiles, const Tiled_surfaces& options,
-                                           const Progress& progress = {}) {
-  return internal::with_threads<ConcurrencyTag>([&] { return internal::hierarchy_of_tiles(tiles, options, progress); });
+Tiled_surface_hierarchy hierarchy_of_tiled_surfaces(const std::vector<Tile>& tiles, const Tiled_surfaces& options = {},
+                                                    const Progress& progress = {}) {
+  return internal::with_threads<ConcurrencyTag>(
+      [&] { return internal::hierarchy_of_tiled_surfaces(tiles, options, progress); });
 }
 
 }  // namespace RW_segmentation

@@ -35,8 +35,8 @@ class Walk_steps {
     take_seeds();
     if (options.smoothing) method_.smoothing.radius = *options.smoothing;
     if (options.segments) method_.seeds = RW::Tiled_segmentation(*options.segments).seeds;
-    method_.wall_angle = wall_angle_of(options);
     if (options.automatic_seeds) method_.seeds = *options.automatic_seeds;
+    method_.wall_angle = wall_angle_of(options);
   }
 
   std::vector<Tile_step> steps() const {

@@ -175,9 +175,9 @@ inline std::vector<char> unclear_halo(const Tile_shape& shape, const std::vector
 
 /// The part for what is done with the surfaces found: on a clean mesh a few flat triangles may be a face of the solid, and
 /// walls keep apart from them what is unclear.
-inline Dual_mesh without_unclear_halo(const Tile_shape& shape, const Dual_mesh& mesh,
-                                      const Surface_tolerance& tolerance,
+inline Dual_mesh without_unclear_halo(const Tile_shape& shape, const Surface_tolerance& tolerance,
                                       const std::vector<std::size_t>& region_of_face) {
+  const Dual_mesh& mesh = shape.mesh;
   if (tolerance.is_noisy()) return mesh;
   const std::vector<char> is_unclear = unclear_halo(shape, region_of_face);
   std::vector<char> is_wall;
@@ -193,10 +193,9 @@ inline Regions_of_part regions_of_part(const Tile_shape& shape, const Surface_to
                                        const Progress& progress) {
   std::vector<Segmentation_report::Stage> stages;
   Stage_clock clock(stages);
-  const Dual_mesh mesh = with_stored_normals(shape.mesh);
-  const Analytic_regions surfaces = find_analytic_regions(mesh, tolerance, progress.part(0, 0.8));
+  const Analytic_regions surfaces = find_analytic_regions(shape.mesh, tolerance, progress.part(0, 0.8));
   const Segments_on_surfaces found =
-      segments_of_regions(without_unclear_halo(shape, mesh, tolerance, surfaces.region_of_face), tolerance,
+      segments_of_regions(without_unclear_halo(shape, tolerance, surfaces.region_of_face), tolerance,
                           surfaces.region_of_face, progress.part(0.8, 1), clock);
   const std::vector<std::size_t> segment =
       found.tree.segment_of_fragments(Cost_threshold_stop(Surface_segmentation().stop_cost)(found.tree));
@@ -235,7 +234,7 @@ inline void take_boundaries(const Tile_shape& shape, std::size_t number, const R
                             const Surface_tolerance& tolerance, Tile_surfaces& surfaces) {
   using Index = Dual_mesh::Index;
   const Dual_mesh& mesh = shape.mesh;
-  const std::vector<double> angles = edge_angles(mesh), sharpness = edge_sharpness(mesh, tolerance);
+  const std::vector<double> sharpness = edge_sharpness(mesh, tolerance);
   const auto sums_of = [&](Index e) -> Edge_sums {
     const double length = mesh.edge_length(e) / mesh.length_unit();
     return {length, length * sharpness[e]};
@@ -260,7 +259,8 @@ inline void take_boundaries(const Tile_shape& shape, std::size_t number, const R
     const Index e = shared.edge;
     const bool is_owner = number < shared.neighbour;
     surfaces.walls += is_owner && mesh.is_wall(e);
-    const bool is_smooth = angles[e] < tolerance.smooth_angle(mesh.graph().faces_of(e));
+    const auto& faces = mesh.graph().faces_of(e);
+    const bool is_smooth = sharpness[e] * tolerance.sharp_angle(faces) < tolerance.smooth_angle(faces);
     const Tile_surfaces::Side_sums sums = {sums_of(e), is_smooth, mesh.is_wall(e)};
     surfaces.sides.push_back({shared.side, static_cast<Index>(regions.region_of_face[own_face(shape, shared)]), 0,
                               is_owner ? sums : Tile_surfaces::Side_sums(), is_owner});
@@ -274,9 +274,10 @@ RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> internal::surfaces_of_tile(
     Tile_surfaces& surfaces, const Tiled_surfaces& options, const Progress& progress) {
   const auto& [number, plan] = place;
   surfaces = {};
-  const Tile_shape shape =
+  Tile_shape shape =
       internal::Tile_surroundings(tile, place, neighbours, options.wall_angle).shape(surfaces.turned_sides);
   if (shape.own_faces == 0) return {};
+  shape.mesh = internal::with_stored_normals(shape.mesh);
   const internal::Surface_tolerance tolerance(shape.mesh, noise.deviation, noise.kind);
   const internal::Regions_of_part regions = internal::regions_of_part(shape, tolerance, progress);
   internal::take_samples(shape.mesh, regions, surfaces);
@@ -421,9 +422,9 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> Tiled_surface_hierarchy::su
                            number_of_segments);
 }
 
-RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
-                                                                            const Tiled_surfaces& options,
-                                                                            const Progress& progress) {
+RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiled_surfaces(const std::vector<Tile>& tiles,
+                                                                                     const Tiled_surfaces& options,
+                                                                                     const Progress& progress) {
   const std::size_t count = tiles.size();
   const auto part = [&](double begin, double end, std::size_t t) {
     return progress_of_tile(progress, begin, end, t, count);
