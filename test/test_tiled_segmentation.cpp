@@ -10,6 +10,7 @@
 #include <RW_segmentation/Tile.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
+#include <RW_segmentation/internal/tiles/noise_sample.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
@@ -28,6 +29,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
@@ -652,6 +654,76 @@ TEST(TiledSegmentation, NoiseIsThatOfTheWhole) {
   const double whole = noise_of({as_tile(shape)});
   EXPECT_GT(whole, 0.1);
   EXPECT_NEAR(noise_of(octants(shape).tiles), whole, 0.05 * whole);
+}
+
+/// A sphere with noise that grows from pole to pole.
+Shape half_noisy_sphere(std::size_t levels, double deviation) {
+  Shape shape = meshes::sphere(levels);
+  const Shape noisy = meshes::with_noise(shape, deviation);
+  for (std::size_t v = 0; v < shape.points.size(); ++v) {
+    const double share = (1 + shape.points[v].z()) / 2;
+    shape.points[v] += share * (noisy.points[v] - shape.points[v]);
+  }
+  return shape;
+}
+
+TEST(TiledSegmentation, NoiseOfALargeTileIsThatOfAllOfItsFaces) {
+  constexpr double edge = 0.01;  // about as long as edges are
+  const std::vector<Tile> tiles = {as_tile(half_noisy_sphere(7, 0.1 * edge))};
+  const Tile_plan plan = plan_tiles(surveys_of(tiles));
+  std::vector<Tile_noise> noises(1);
+  border_of_tile(tiles[0], {0, plan}, noises[0]);
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& p : tiles[0].points) points.push_back(plan.box.scaled(p));
+  const Dual_mesh mesh = internal::part_of(plan, tiles[0].corners, points, {});
+  const auto turns = internal::Turn_histogram::counts(internal::normal_turns(mesh, Normal_smoothing()).turn);
+  const double of_all = internal::Turn_histogram::median(turns);
+  EXPECT_NE(noises[0].turns, turns);
+  EXPECT_NEAR(noise_of_tiles(noises).turn, of_all, 0.05 * of_all);
+  // It weighs as much as all faces would, but for what rounding takes of each count.
+  const auto sum = [](const auto& counts) { return std::accumulate(counts.begin(), counts.end(), std::uint64_t(0)); };
+  EXPECT_LE(sum(noises[0].turns), sum(turns));
+  EXPECT_GE(sum(noises[0].turns) + turns.size(), sum(turns));
+}
+
+TEST(NoiseSample, IsSpreadOverAMeshInPatchesWithoutTheirRims) {
+  constexpr std::size_t most = 4000;
+  const auto surface = meshes::surface_mesh(meshes::sphere(5));
+  const Dual_mesh_of mesh(surface);
+  const double length = 0.01 * std::sqrt(mesh.total_area());
+  const internal::Noise_sample sample = internal::noise_sample(mesh, length, most);
+  EXPECT_GE(sample.faces.size(), most / 2);  // some are in several patches
+  EXPECT_LE(sample.faces.size(), most + most / 4);
+  EXPECT_TRUE(std::is_sorted(sample.faces.begin(), sample.faces.end()));
+  std::set<std::array<bool, 3>> octants;
+  const std::set<Index> faces(sample.faces.begin(), sample.faces.end());
+  for (std::size_t i = 0; i < sample.faces.size(); ++i) {
+    if (!sample.is_counted[i]) continue;
+    const Eigen::Vector3d middle = mesh.centroid(sample.faces[i]);
+    octants.insert({middle.x() < 0, middle.y() < 0, middle.z() < 0});
+    for (const auto& neighbour : mesh.graph().neighbours(sample.faces[i]))
+      EXPECT_TRUE(faces.count(neighbour.face) > 0) << "a face at the end of its patch counts";
+  }
+  EXPECT_EQ(octants.size(), 8U);
+}
+
+TEST(NoiseSample, IsAllOfASmallMeshAndWholeComponents) {
+  const auto surface = meshes::surface_mesh(meshes::sphere(3));
+  const Dual_mesh_of mesh(surface);
+  const auto all = internal::noise_sample(mesh, 0.01, mesh.number_of_faces());
+  EXPECT_EQ(all.faces.size(), mesh.number_of_faces());
+  EXPECT_EQ(std::count(all.is_counted.begin(), all.is_counted.end(), true),
+            static_cast<std::ptrdiff_t>(mesh.number_of_faces()));
+
+  constexpr std::size_t most = 400;
+  Shape cubes = meshes::cube();
+  for (int i = 1; i < 100; ++i)
+    cubes = meshes::together(std::move(cubes), meshes::moved(meshes::cube(), {10. * i, 0, 0}));
+  const auto many = meshes::surface_mesh(cubes);
+  const auto some = internal::noise_sample(Dual_mesh_of(many), 1, most);
+  EXPECT_GE(some.faces.size(), most / 2);
+  EXPECT_LT(some.faces.size(), most + meshes::cube().faces.size());
+  EXPECT_EQ(std::count(some.is_counted.begin(), some.is_counted.end(), false), 0);
 }
 
 // ---- Where tiles meet ----

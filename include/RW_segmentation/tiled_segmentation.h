@@ -120,7 +120,8 @@ struct Tile_border {
   std::vector<std::array<Dual_mesh::Index, 2>> walls;  ///< those of the tile, by their points
 };
 
-/// How far smoothing turns the normals of a tile: counts, from which medians over all tiles are taken.
+/// How far smoothing turns the normals of a tile: counts, from which medians over all tiles are taken. Those of patches are
+/// scaled up, so that each tile weighs as much as its faces.
 struct Tile_noise {
   std::vector<std::uint64_t> turns;           ///< see `internal::Turn_histogram`
   std::vector<std::uint64_t> smoother_turns;  ///< likewise, of the smoothed mesh, where there is heavy noise
@@ -294,9 +295,10 @@ Tile_survey survey_tile(const Tile& tile);
 /// Complexity: O(b log b) for b vertices on the borders of all tiles.
 Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance = 0);
 
-/// Takes what neighbours must see of a tile, and measures its noise.
+/// Takes what neighbours must see of a tile, and measures its noise: on all faces of a tile of up to 250 000, and on patches
+/// of about as many faces together, spread over it, of a larger one.
 /// \param[out] noise what `noise_of_tiles()` needs
-/// Complexity: that of `smoothed_face_normals()`.
+/// Complexity: linear, beside that of `smoothed_face_normals()` for so many faces.
 /// \throws std::invalid_argument, Cancelled
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,

@@ -12,6 +12,7 @@
 #include <RW_segmentation/internal/tiles/Edge_set.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/internal/tiles/Turn_histogram.h>
+#include <RW_segmentation/internal/tiles/noise_sample.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
@@ -52,6 +53,49 @@ RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners cor
                                          std::vector<Eigen::Vector3d> points, std::vector<char> is_wall) {
   Joined_faces joined(corners, points.size());
   return part_of_joined_faces(plan, std::move(corners), std::move(points), std::move(joined), std::move(is_wall));
+}
+
+// ---- Noise ----
+
+/// Some faces of a tile by themselves, without walls.
+/// \param faces different ones
+inline Dual_mesh part_of_faces(const Tile_plan& plan, const Dual_mesh& mesh,
+                               const std::vector<Dual_mesh::Index>& faces) {
+  using Index = Dual_mesh::Index;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> number(mesh.number_of_vertices(), none);
+  std::vector<Eigen::Vector3d> points;
+  Face_corners corners;
+  for (const Index f : faces) {
+    for (const Index v : mesh.corners(f)) {
+      if (number[v] == none) {
+        number[v] = static_cast<Index>(points.size());
+        points.push_back(mesh.point(v));
+      }
+      corners.add(number[v]);
+    }
+    corners.end_face();
+  }
+  return part_of(plan, std::move(corners), std::move(points), {});
+}
+
+/// The noise of a tile. A large one is measured on a sample of its faces, which stand for all.
+inline Tile_noise measured_noise(const Tile_plan& plan, const Dual_mesh& mesh, const Normal_smoothing& smoothing,
+                                 const Progress& progress) {
+  // Ten of CGAL's meshes of .8 to 2.5 million faces, clean and with noise of .01 to .1 % of the diagonal, have their widening
+  // changed by 2 % in the mean and 9 % at most. Half as many faces change it by up to 53 %, twice as many by up to 5 %.
+  constexpr std::size_t most_faces = 250000;
+  const Noise_sample sample = noise_sample(mesh, smoothing.radius * std::sqrt(plan.total_area), most_faces);
+  const bool is_whole = sample.faces.size() == mesh.number_of_faces();
+  const Normal_turns turns =
+      normal_turns(is_whole ? mesh : part_of_faces(plan, mesh, sample.faces), smoothing, progress);
+  const auto of_all = [&](const std::vector<double>& turn) {
+    std::vector<double> counted;
+    for (std::size_t i = 0; i < turn.size(); ++i)
+      if (sample.is_counted[i]) counted.push_back(turn[i]);
+    return Turn_histogram::scaled(Turn_histogram::counts(counted), mesh.number_of_faces(), counted.size());
+  };
+  return {of_all(turns.turn), of_all(turns.smoother_turn)};
 }
 
 // ---- The border that neighbours see ----
@@ -133,8 +177,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
   Tile_border border;
   double widening = 1;
   if (mesh.number_of_faces() > 0) {
-    const internal::Normal_turns turns = internal::normal_turns(mesh, options.smoothing, progress);
-    noise = {internal::Turn_histogram::counts(turns.turn), internal::Turn_histogram::counts(turns.smoother_turn)};
+    noise = internal::measured_noise(plan, mesh, options.smoothing, progress);
     widening = internal::widening_by_noise(noise_of_tiles({noise}), options.smoothing);
   }
   border.width = internal::width_of_border(plan, options.smoothing, std::max(widening, 1.));

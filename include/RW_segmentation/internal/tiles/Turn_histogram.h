@@ -32,6 +32,13 @@ struct Turn_histogram {
     for (std::size_t bin = 0; bin < part.size(); ++bin) whole[bin] += part[bin];
   }
 
+  /// Of a sample, as those of all that it stands for.
+  /// \param sampled not 0
+  static Counts scaled(Counts counts, std::uint64_t all, std::uint64_t sampled) {
+    for (auto& count : counts) count = count * all / sampled;
+    return counts;
+  }
+
   /// The upper one of two; 0 of none.
   static double median(const Counts& counts) {
     std::uint64_t total = 0, sum = 0;
