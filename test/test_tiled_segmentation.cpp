@@ -616,6 +616,18 @@ TEST(TiledSegmentation, NormalsOfATileAreThoseOfTheWhole) {
   }
 }
 
+TEST(TiledSegmentation, NormalsUnderNoiseAreThoseOfTheWidenedRadius) {
+  constexpr double widening = 2, largest_turn = 0.01;  // radians; 5e-4 is the solver's as a root of the mean square
+  Normal_smoothing smoothing;
+  const auto surface = meshes::surface_mesh(meshes::with_noise(dumbbell(), 0.01));
+  const Dual_mesh_of mesh(surface);
+  const Dual_mesh shape = internal::shape_of_part(mesh, smoothing, {widening * smoothing.noise_angle, 0});
+  smoothing.radius *= widening;
+  smoothing.noise_angle = std::numeric_limits<double>::infinity();
+  const auto normals = internal::smooth_normals(mesh, smoothing);
+  for (Index f = 0; f < normals.size(); ++f) EXPECT_LE((shape.shape_normal(f) - normals[f]).norm(), largest_turn);
+}
+
 TEST(TiledSegmentation, ThicknessIsMeasuredThroughOtherTiles) {
   const Shape shape = meshes::sphere(4);  // of radius 1
   const Cut_mesh mesh = octants(shape);

@@ -166,8 +166,13 @@ RW_SEGMENTATION_INLINE Dual_mesh shape_of_part(const Dual_mesh& part, const Norm
   require_smoothing_numbers(smoothing);
   if (keeps_normals(part, smoothing)) return part;
   const Dual_mesh shape = is_heavy_noise(whole.turn, smoothing) ? with_smoothed_vertices(part) : part;
-  const double radius = widening_by_noise(whole, smoothing) * smoothing.radius;
-  return shape.with_shape_normals(diffused_normals(shape, radius, progress).unit);
+  const double widening = widening_by_noise(whole, smoothing);
+  // Far from normals that are noisy, zero is the better start: 14 iterations in place of 23 on 3.5 million faces whose
+  // normals are averaged over 450 edges, 9 to 13 in place of 15 to 27 on a hand and an elephant with noise.
+  const auto start = [&](Dual_mesh::Index f) {
+    return widening > 1 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : shape.normal(f);
+  };
+  return shape.with_shape_normals(diffused_normals(shape, widening * smoothing.radius, start, progress).unit);
 }
 
 }  // namespace RW_segmentation::internal
