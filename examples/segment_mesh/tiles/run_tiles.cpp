@@ -8,7 +8,12 @@
 #include "Tile_steps.h"
 #include "Worker_pool.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <filesystem>
+#include <limits>
 #include <random>
 #include <string>
 #include <system_error>
@@ -92,8 +97,19 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
+/// Lets memory that is freed be used again in this process, which ends after a step: to give it back and to get it anew takes
+/// a tenth of the time.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  ::mallopt(M_TOP_PAD, 1 << 26);
+#endif
+}
+
 /// Does a step in this process.
 Exit_code do_step(const Tile_step& step, std::size_t tile, const Options& options) {
+  keep_freed_memory();
   try {
     step.run(tile);
     return success;
