@@ -295,8 +295,8 @@ Tile_survey survey_tile(const Tile& tile);
 /// Complexity: O(b log b) for b vertices on the borders of all tiles.
 Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance = 0);
 
-/// Takes what neighbours must see of a tile, and measures its noise: on all faces of a tile of up to 250 000, and on patches
-/// of about as many faces together, spread over it, of a larger one.
+/// Takes what neighbours must see of a tile, and measures its noise: on all faces of a tile of up to 500 000, and on patches
+/// of 250 000 faces together, spread over it, of a larger one.
 /// \param[out] noise what `noise_of_tiles()` needs
 /// Complexity: linear, beside that of `smoothed_face_normals()` for so many faces.
 /// \throws std::invalid_argument, Cancelled

@@ -92,10 +92,10 @@ class Noise_patches {
 
 /// All faces of a small mesh, and patches of a large one.
 /// \param smoothing_length of the normals, in the unit box
-/// \param most that are measured without patches, and that patches have together, or little more
-inline Noise_sample noise_sample(const Dual_mesh& mesh, double smoothing_length, std::size_t most) {
+/// \param of_patches faces that they have together, or little more; a mesh is large that has more than twice as many
+inline Noise_sample noise_sample(const Dual_mesh& mesh, double smoothing_length, std::size_t of_patches) {
   const std::size_t faces = mesh.number_of_faces();
-  if (faces <= most) {
+  if (faces <= 2 * of_patches) {
     Noise_sample sample;
     sample.faces.resize(faces);
     std::iota(sample.faces.begin(), sample.faces.end(), Dual_mesh::Index(0));
@@ -109,8 +109,8 @@ inline Noise_sample noise_sample(const Dual_mesh& mesh, double smoothing_length,
   constexpr std::size_t fewest = 4;
   const double area = std::accumulate(mesh.areas().begin(), mesh.areas().end(), 0.);
   const double faces_of_disc = pi * std::pow(radius * smoothing_length, 2) * static_cast<double>(faces) / area;
-  const double largest = std::min(static_cast<double>(most / fewest), std::max(faces_of_disc, 1.));
-  return Noise_patches(mesh.graph(), most, static_cast<std::size_t>(largest)).sample();
+  const double largest = std::min(static_cast<double>(of_patches / fewest), std::max(faces_of_disc, 1.));
+  return Noise_patches(mesh.graph(), of_patches, static_cast<std::size_t>(largest)).sample();
 }
 
 }  // namespace RW_segmentation::internal
