@@ -101,10 +101,10 @@ inline Tile_noise measured_noise(const Tile_plan& plan, const Dual_mesh& mesh, c
 // ---- The border that neighbours see ----
 
 /// Faces within a distance of some faces, along paths from centroid to centroid; those themselves first.
-/// \param distance_between a function from two neighbouring faces to their distance
-template <class Distance>
-std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph, const std::vector<Dual_graph::Index>& sources,
-                                            double distance, const Distance& distance_between) {
+/// \param centroid by face
+inline std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph,
+                                                   const std::vector<Dual_graph::Index>& sources, double distance,
+                                                   const std::vector<Eigen::Vector3d>& centroid) {
   using Index = Dual_graph::Index;
   std::vector<float> reached(graph.number_of_faces(), std::numeric_limits<float>::infinity());
   std::vector<Index> within;
@@ -119,7 +119,7 @@ std::vector<Dual_graph::Index> faces_within(const Dual_graph& graph, const std::
     next.clear();
     for (const Index f : open)
       for (const auto& [g, edge] : graph.neighbours(f)) {
-        const auto through_f = static_cast<float>(reached[f] + distance_between(f, g));
+        const auto through_f = static_cast<float>(reached[f] + (centroid[f] - centroid[g]).norm());
         if (!(through_f < reached[g]) || through_f > static_cast<float>(distance)) continue;
         if (std::isinf(reached[g])) within.push_back(g);
         reached[g] = through_f;
@@ -146,8 +146,10 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
   for (Index f = 0; f < mesh.number_of_faces(); ++f)
     for (const Index v : mesh.corners(f))
       if (id[v] != Tile_border::none) at_border.push_back(f);
-  border.faces = faces_within(mesh.graph(), at_border, border.width,
-                              [&](Index f, Index g) { return (mesh.centroid(f) - mesh.centroid(g)).norm(); });
+  std::vector<Eigen::Vector3d> centroid;
+  centroid.reserve(mesh.number_of_faces());
+  for (Index f = 0; f < mesh.number_of_faces(); ++f) centroid.push_back(mesh.centroid(f));
+  border.faces = faces_within(mesh.graph(), at_border, border.width, centroid);
   std::sort(border.faces.begin(), border.faces.end());
 
   std::vector<Index> number(mesh.number_of_vertices(), Tile_border::none);
@@ -293,13 +295,13 @@ class Tile_surroundings {
     Joined_faces joined(borders.corners, borders.points.size());
     const Dual_graph graph(borders.faces.size(), std::move(joined.sides));
     std::vector<Eigen::Vector3d> centroid;
+    centroid.reserve(borders.faces.size());
     for (Index f = 0; f < borders.faces.size(); ++f) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const Index v : borders.corners[f]) sum += borders.points[v];
       centroid.push_back(sum / static_cast<double>(borders.corners[f].size()));
     }
-    std::vector<Index> near = faces_within(graph, borders.sources, borders.width,
-                                           [&](Index f, Index g) { return (centroid[f] - centroid[g]).norm(); });
+    std::vector<Index> near = faces_within(graph, borders.sources, borders.width, centroid);
     std::sort(near.begin(), near.end());
     return near;
   }
