@@ -98,12 +98,13 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
 }
 
 /// Lets memory that is freed be used again in this process, which ends after a step: to give it back and to get it anew takes
-/// a tenth of the time.
+/// a tenth of the time of a tile with 2.5 million faces.
 void keep_freed_memory() {
 #ifdef __GLIBC__
+  constexpr int asked_for_at_a_time = 1 << 26;  // bytes; a step takes hundreds of megabytes
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  ::mallopt(M_TOP_PAD, 1 << 26);
+  ::mallopt(M_TOP_PAD, asked_for_at_a_time);
 #endif
 }
 

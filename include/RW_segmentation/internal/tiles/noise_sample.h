@@ -103,7 +103,7 @@ inline Noise_sample noise_sample(const Dual_mesh& mesh, double smoothing_length,
     return sample;
   }
   constexpr double pi = 3.141592653589793;
-  // Of a patch, in smoothing lengths: a third of it is rim.
+  // Of a patch, in smoothing lengths: a third of it is rim. If rims count, clean meshes seem to have 1.1 to 2.2 times the noise.
   constexpr double radius = 3;
   // Patches, where the smoothing length is that of a whole of more than 100 million faces.
   constexpr std::size_t fewest = 4;
