@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
 // Boundary representations for CAD systems: how many are valid and closed, how many keep triangles, how close their areas
-// and volumes are to the truth, how large their STEP files are, and the time beside that of the segmentation.
+// and volumes are to the truth, how far they are from the mesh, how large their STEP files are, and the time beside that
+// of the segmentation.
 
 #include "../examples/segment_mesh/Cad_shape.h"
 #include "../test/solids.h"
@@ -12,6 +13,7 @@
 #include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
@@ -86,6 +88,7 @@ std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const
 struct Score {
   bool is_sound = false, has_triangles = true;
   double area_error = std::numeric_limits<double>::infinity(), volume_error = area_error;
+  double distance = 0;  // of the faces to the mesh, at most, of its diagonal
   double megabytes = 0, segmentation_ms = 0, representation_ms = 0;
 };
 
@@ -93,9 +96,9 @@ struct Score {
 void print(const std::string& name, const Score& score, const Json& report) {
   std::map<std::string, std::size_t> types;
   for (const Json& face : report["faces"]) ++types[face["type"].get<std::string>()];
-  std::printf("%-44s %-8s %8.1e %8.1e %7.2f %8.0f %8.0f %6zu", name.c_str(), score.is_sound ? "sound" : "UNSOUND",
-              score.area_error, score.volume_error, score.megabytes, score.segmentation_ms, score.representation_ms,
-              report["triangles"].get<std::size_t>());
+  std::printf("%-44s %-8s %8.1e %8.1e %8.1e %7.2f %8.0f %8.0f %6zu", name.c_str(), score.is_sound ? "sound" : "UNSOUND",
+              score.area_error, score.volume_error, score.distance, score.megabytes, score.segmentation_ms,
+              score.representation_ms, report["triangles"].get<std::size_t>());
   for (const auto& [type, number] : types) std::printf(" %zu %s", number, type.c_str());
   if (!score.is_sound) std::printf("; %s", report["defect"].get<std::string>().c_str());
   for (const auto& [reason, number] : report["refusals"].items())
@@ -126,6 +129,10 @@ Score score_of(const Subject& subject) {
   };
   score.area_error = error(subject.area, "area");
   score.volume_error = error(report["mesh_volume"].get<double>(), "volume");
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(subject.mesh);
+  const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  for (const Json& face : report["faces"])
+    score.distance = std::max(score.distance, face["distance_to_mesh"].get<double>() / diagonal);
   const std::vector<mesh_files::Color> colors(segments, mesh_files::Color{200, 200, 200});
   score.megabytes = double(shape->content(segment_mesh::Cad_format::step, subject.name, colors).size()) / 1e6;
   print(subject.name, score, report);
@@ -134,7 +141,7 @@ Score score_of(const Subject& subject) {
 
 void print_result(const std::string& set, const std::vector<Score>& scores) {
   std::size_t sound = 0, without_triangles = 0, exact = 0;
-  std::vector<double> areas, volumes, megabytes;
+  std::vector<double> areas, volumes, distances, megabytes;
   double segmentation = 0, representation = 0;
   for (const Score& s : scores) {
     constexpr double exact_area = 1e-4;  // of the CAD's
@@ -143,6 +150,7 @@ void print_result(const std::string& set, const std::vector<Score>& scores) {
     exact += s.area_error <= exact_area;
     if (!std::isnan(s.area_error)) areas.push_back(s.area_error);
     volumes.push_back(s.volume_error);
+    distances.push_back(s.distance);
     megabytes.push_back(s.megabytes);
     segmentation += s.segmentation_ms;
     representation += s.representation_ms;
@@ -150,8 +158,9 @@ void print_result(const std::string& set, const std::vector<Score>& scores) {
   std::printf("RESULT bench=brep set=%s solids=%zu sound=%zu without_triangles=%zu exact_area=%zu", set.c_str(),
               scores.size(), sound, without_triangles, exact);
   if (!areas.empty()) std::printf(" median_area_error=%.2g max_area_error=%.2g", median(areas), maximum(areas));
-  std::printf(" median_volume_error=%.2g max_volume_error=%.2g median_mb=%.2f ms=%.0f segmentation_ms=%.0f\n",
-              median(volumes), maximum(volumes), median(megabytes), representation, segmentation);
+  std::printf(" median_volume_error=%.2g max_volume_error=%.2g median_distance=%.2g max_distance=%.2g", median(volumes),
+              maximum(volumes), median(distances), maximum(distances));
+  std::printf(" median_mb=%.2f ms=%.0f segmentation_ms=%.0f\n", median(megabytes), representation, segmentation);
 }
 
 }  // namespace
@@ -170,8 +179,8 @@ int main(int argc, char** argv) {
   try {
     if (data.empty()) suffixes = {""};
     for (const std::string& suffix : suffixes) {
-      std::printf("\n%-44s %-8s %8s %8s %7s %8s %8s %6s faces\n", ("solids" + suffix).c_str(), "", "area", "volume",
-                  "MB", "segm. ms", "ms", "triang");
+      std::printf("\n%-44s %-8s %8s %8s %8s %7s %8s %8s %6s faces\n", ("solids" + suffix).c_str(), "", "area", "volume",
+                  "distance", "MB", "segm. ms", "ms", "triang");
       std::vector<Score> scores;
       for (const Subject& subject : data.empty() ? constructed_solids() : solids_in_folder(data, suffix))
         scores.push_back(score_of(subject));

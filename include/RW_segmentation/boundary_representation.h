@@ -144,7 +144,7 @@ inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const b
     result.type = Surface_type::plane;
   else if (const auto* placed = dynamic_cast<const brep::Placed_surface*>(patch.surface.get()))
     result.type = placed->type();
-  result.area = brep::area_of(result.face);
+  result.area = brep::exact_area_of(result.face);
   result.mesh_area = brep::area_of(mesh, patch.triangles);
   result.distance_of_mesh = brep::distance_of_corners(mesh, patch);
   result.distance_to_mesh = result.is_triangle ? 0 : distance.of_face(result.face);

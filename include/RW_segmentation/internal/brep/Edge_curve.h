@@ -96,12 +96,17 @@ inline Edge_curve spline_through(const std::vector<Point>& points, double diagon
   return {curve, curve->FirstParameter(), curve->LastParameter()};
 }
 
+/// The line or circle through points, if there is one.
+inline std::optional<Edge_curve> line_or_circle_through(const std::vector<Point>& points, double diagonal) {
+  constexpr double tolerance = 2e-5;  // of the diagonal; vertices of files in single precision are as exact
+  if (const auto line = line_through(points, tolerance * diagonal)) return line;
+  return circle_through(points, tolerance * diagonal, diagonal);
+}
+
 /// The simplest curve through points: a line, a circle or a spline.
 /// \throws Standard_Failure if there are no two different points
 inline Edge_curve curve_through(const std::vector<Point>& points, double diagonal) {
-  constexpr double tolerance = 2e-5;  // of the diagonal; vertices of files in single precision are as exact
-  if (const auto line = line_through(points, tolerance * diagonal)) return *line;
-  if (const auto circle = circle_through(points, tolerance * diagonal, diagonal)) return *circle;
+  if (const auto simple = line_or_circle_through(points, diagonal)) return *simple;
   return spline_through(points, diagonal);
 }
 

@@ -3,6 +3,7 @@
 #ifndef RW_SEGMENTATION_INTERNAL_BREP_EDGE_POINTS_H
 #define RW_SEGMENTATION_INTERNAL_BREP_EDGE_POINTS_H
 
+#include <RW_segmentation/internal/brep/Edge_curve.h>
 #include <RW_segmentation/internal/brep/Height_field.h>
 #include <RW_segmentation/internal/brep/Patch.h>
 #include <RW_segmentation/internal/brep/Patch_borders.h>
@@ -111,13 +112,38 @@ class Edge_points {
     return points;
   }
 
-  /// On the one surface that is known, or on none, the mesh's vertices are all that is known of the edge.
+  /// On the one surface that is known, or on none, the mesh's vertices are all that is known of the edge, and that long
+  /// sides beside short ones are straight.
   std::vector<Point> through_vertices(const Chain& chain, const std::vector<const Patch_surface*>& surfaces) const {
     std::vector<Point> points;
-    for (const std::size_t v : chain.vertices) points.push_back(projected(positions_[v], surfaces, reach(chain)));
+    for (const std::size_t v : chain.vertices) points.push_back(positions_[v]);
+    if (!line_or_circle_through(points, mesh_.diagonal())) points = with_points_on_long_sides(points);
+    for (Point& p : points) p = projected(p, surfaces, reach(chain));
     points.front() = positions_[chain.vertices.front()];
     points.back() = positions_[chain.vertices.back()];
     return points;
+  }
+
+  /// Points in between on sides that are much longer than one beside them. Kernels leave such where a line goes over into
+  /// an arc, and a spline through the ends alone would swing out.
+  static std::vector<Point> with_points_on_long_sides(const std::vector<Point>& points) {
+    constexpr double long_side = 3;  // times the one beside it; arcs of kernels have even sides (`benchmark_brep`)
+    const std::size_t sides = points.size() - 1;
+    const auto length = [&](std::size_t i) { return (points[i + 1] - points[i]).norm(); };
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < sides; ++i) {
+      result.push_back(points[i]);
+      const double own = length(i), before = i > 0 ? length(i - 1) : own, after = i + 1 < sides ? length(i + 1) : own;
+      if (!(std::min(before, after) > 0) || own < long_side * std::min(before, after)) continue;
+      std::vector<double> ways;
+      for (double way = before; way < own / 2; way *= 2) ways.push_back(way);
+      const auto middle = static_cast<std::ptrdiff_t>(ways.size());
+      for (double way = after; way < own / 2; way *= 2) ways.push_back(own - way);
+      std::reverse(ways.begin() + middle, ways.end());
+      for (const double way : ways) result.push_back(points[i] + way / own * (points[i + 1] - points[i]));
+    }
+    result.push_back(points.back());
+    return result;
   }
 
   /// The chain with points in between, smoothed and projected on both surfaces in turn, which takes off the teeth where
@@ -142,11 +168,13 @@ class Edge_points {
     return points;
   }
 
+  /// How far a curve may be from its chord: the arc that a triangle cuts off a circle is .29 of the side away.
   double reach(const Chain& chain) const {
+    constexpr double largest_bulge = 0.3;  // of the longest side
     double longest = 0;
     for (std::size_t i = 0; i + 1 < chain.vertices.size(); ++i)
       longest = std::max(longest, (mesh_.point(chain.vertices[i]) - mesh_.point(chain.vertices[i + 1])).norm());
-    return longest / 2;
+    return largest_bulge * longest;
   }
 
   const Halfedge_triangles& mesh_;

@@ -3,6 +3,7 @@
 #ifndef RW_SEGMENTATION_INTERNAL_BREP_SHAPE_ATTEMPT_H
 #define RW_SEGMENTATION_INTERNAL_BREP_SHAPE_ATTEMPT_H
 
+#include <RW_segmentation/internal/brep/Curved_triangle.h>
 #include <RW_segmentation/internal/brep/Edge_curve.h>
 #include <RW_segmentation/internal/brep/Edge_parameters.h>
 #include <RW_segmentation/internal/brep/Edge_points.h>
@@ -44,6 +45,16 @@ inline double area_of(const TopoDS_Shape& shape) {
   return properties.Mass();
 }
 
+/// Of areas in reports, relative; the kernel's default may be off by 3 % where a border has many knots.
+constexpr double error_of_areas = 1e-5;
+
+/// As exact as a report needs it; takes several times as long.
+inline double exact_area_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties, error_of_areas);
+  return properties.Mass();
+}
+
 /// A patch whose face cannot be made, and why.
 struct Rejection {
   std::size_t patch;
@@ -51,8 +62,16 @@ struct Rejection {
   enum class Cause { edge_far_from_surface, face_not_valid, other } cause;
 };
 
-/// What was found valid in an earlier attempt: points of the border of the face on a surface.
-using Valid_borders = std::map<std::shared_ptr<const Patch_surface>, std::vector<Point>>;
+/// All that a face on a given surface depends on.
+struct Face_border {
+  std::vector<Point> points;
+  std::vector<double> tolerances;  // of its edges and vertices, which other faces widen
+
+  bool operator==(const Face_border& other) const { return points == other.points && tolerances == other.tolerances; }
+};
+
+/// What was found valid in an earlier attempt: the border of the face on a surface.
+using Valid_borders = std::map<std::shared_ptr<const Patch_surface>, Face_border>;
 
 /// The faces of patches, made once. They share their edges and vertices, so that they are as closed as the mesh.
 ///
@@ -89,7 +108,7 @@ class Shape_attempt {
   static constexpr double least_tolerance = 1e-7;  // of the kernel
   /// Of the diagonal: edges that are farther from a surface make another shape of it.
   static constexpr double largest_gap = 2e-3, largest_gap_of_chord = 2e-2;
-  /// A face inside out has the area of all the rest; but half a circle may stand for a single chord of it.
+  /// A face inside out has the area of all the rest; but a third of a circle may stand for a single chord of it.
   static constexpr double largest_error_of_area = 0.6;
   /// Of the diagonal: what a free form is to keep to, where its splines can.
   static constexpr double accuracy_of_free_form = 1e-5;
@@ -173,21 +192,41 @@ class Shape_attempt {
       for (const std::size_t v : corners_of(mesh_, patches_[i].triangles))
         if (!is_on_border[v]) points.push_back(mesh_.point(v));
       const double deviation =
-          field->fit(points, points_of_chords(patches_[i]), accuracy_of_free_form * mesh_.diagonal());
+          field->fit(points, points_between_vertices(patches_[i]), accuracy_of_free_form * mesh_.diagonal());
       if (!(deviation < largest_gap * mesh_.diagonal())) reject(i, "no free form comes close to the mesh");
     }
   }
 
-  /// The centres of triangles and points of the edges between them.
-  std::vector<Point> points_of_chords(const Patch& patch) const {
+  /// Points between the vertices of a patch, no farther apart than the knots of a free form may be, so that it does not
+  /// wave within long triangles: rows along the longest side of each.
+  std::vector<Point> points_between_vertices(const Patch& patch) const {
+    Eigen::AlignedBox3d box;
+    std::map<std::size_t, Point> normals;  // by vertex, summed over the areas of the patch's triangles
+    for (const std::size_t t : patch.triangles)
+      for (const std::size_t v : mesh_.corners(t)) {
+        box.extend(mesh_.point(v));
+        normals.emplace(v, Point::Zero()).first->second += mesh_.area_vector(t);
+      }
+    for (auto& [v, normal] : normals) normal.normalize();
+    const double spacing = box.diagonal().norm() / double(Height_field::most_spans);
     std::vector<Point> points;
     for (const std::size_t t : patch.triangles) {
-      points.push_back(mesh_.centre(t));
-      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const std::size_t other = mesh_.neighbour(h);
-        if (other == none || other < t || borders_.patch_of(other) != borders_.patch_of(t)) continue;
-        for (const double share : {0.25, 0.5, 0.75})
-          points.push_back((1 - share) * mesh_.point(mesh_.from(h)) + share * mesh_.point(mesh_.to(h)));
+      std::size_t longest = 3 * t;
+      for (std::size_t h = 3 * t + 1; h < 3 * t + 3; ++h)
+        if (mesh_.length(h) > mesh_.length(longest)) longest = h;
+      const std::size_t va = mesh_.from(longest), vb = mesh_.to(longest), vc = mesh_.to(mesh_.next(longest));
+      const Curved_triangle triangle({mesh_.point(va), mesh_.point(vb), mesh_.point(vc)},
+                                     {normals[va], normals[vb], normals[vc]});
+      const double length = mesh_.length(longest);
+      const double height = length > 0 ? 2 * mesh_.area_vector(t).norm() / length : 0;
+      const int rows = 1 + static_cast<int>(height / spacing);
+      for (int row = 0; row < rows; ++row) {
+        const double up = (row + 0.5) / rows;
+        const int columns = 1 + static_cast<int>((1 - up) * length / spacing);
+        for (int column = 0; column < columns; ++column) {
+          const double along = (column + 0.5) / columns;
+          points.push_back(triangle.at((1 - up) * (1 - along), (1 - up) * along, up));
+        }
       }
     }
     return points;
@@ -245,8 +284,9 @@ class Shape_attempt {
   void check_face(std::size_t i) {
     const Patch& patch = patches_[i];
     if (patch.has_triangles()) return;
+    Face_border border = {border_points_[i], tolerances_round(i)};
     const auto known = valid_.find(patch.surface);
-    if (known != valid_.end() && known->second == border_points_[i]) return;
+    if (known != valid_.end() && known->second == border) return;
     if (std::string error = first_error(faces_[i]); !error.empty())
       return reject(i, std::move(error), Rejection::Cause::face_not_valid);
     const double area = area_of(mesh_, patch.triangles);
@@ -254,7 +294,19 @@ class Shape_attempt {
     if (!(std::abs(area_of(faces_[i]) - area) <= largest_error_of_area * area + least_area))
       reject(i, "its area is not that of its triangles");
     else
-      valid_[patch.surface] = border_points_[i];
+      valid_[patch.surface] = std::move(border);
+  }
+
+  std::vector<double> tolerances_round(std::size_t patch) const {
+    std::vector<double> tolerances;
+    for (const auto& loop : borders_.loops(patch))
+      for (const auto& [chain, is_forward] : loop) {
+        tolerances.push_back(edges_[chain].tolerance);
+        for (const std::size_t end :
+             {borders_.chains()[chain].vertices.front(), borders_.chains()[chain].vertices.back()})
+          tolerances.push_back(BRep_Tool::Tolerance(vertices_[end]));
+      }
+    return tolerances;
   }
 
   /// Whether the normal of a patch's surface points out of the mesh.

@@ -6,6 +6,7 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
+#include <RW_segmentation/internal/brep/Height_field.h>
 #include <RW_segmentation/internal/brep/Patch.h>
 #include <RW_segmentation/internal/brep/Patch_division.h>
 #include <RW_segmentation/internal/brep/Shape_attempt.h>
@@ -29,7 +30,7 @@ class Shape_building {
   /// \param segment_of_triangle numbers of surfaces
   Shape_building(const Halfedge_triangles& mesh, const std::vector<Analytic_surface>& surfaces,
                  std::vector<std::size_t> segment_of_triangle, const Progress& progress)
-      : mesh_(mesh), division_(mesh, surfaces) {
+      : mesh_(mesh), has_joined_(mesh.number_of_triangles(), false), division_(mesh, surfaces) {
     absorb_slivers(mesh, surfaces, segment_of_triangle);
     std::vector<std::size_t> all(mesh.number_of_triangles());
     std::iota(all.begin(), all.end(), std::size_t(0));
@@ -86,7 +87,7 @@ class Shape_building {
   }
 
   /// What helps a patch that was refused, the gentlest first.
-  enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, become_triangles };
+  enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, join_free_form, become_triangles };
 
   static Step next_step(const Patch& patch, const Rejection& rejection) {
     constexpr std::size_t too_few_to_halve = 3;
@@ -95,10 +96,11 @@ class Shape_building {
     if (patch.form == Form::surface && takes_chords) return Step::take_chords;
     if (!patch.is_free_form()) return is_far ? Step::leave_out_far_triangles : Step::become_free_form;
     if (patch.form == Form::free_form && takes_chords) return Step::take_chords;
-    return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::become_triangles;
+    return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::join_free_form;
   }
 
-  void remake(const std::map<std::size_t, Step>& next) {
+  void remake(std::map<std::size_t, Step>& next) {
+    join_free_forms(next);
     std::vector<Patch> bases;
     for (std::size_t i = 0; i < bases_.size(); ++i) {
       const auto found = next.find(i);
@@ -110,7 +112,48 @@ class Shape_building {
     bases_ = std::move(bases);
   }
 
+  /// Gives each patch that is to join a free form to the one that it shares the longest border with. It becomes triangles
+  /// if there is none, or if it has been given away before.
+  void join_free_forms(std::map<std::size_t, Step>& next) {
+    std::vector<std::size_t> base_of_triangle(mesh_.number_of_triangles(), none);
+    for (std::size_t i = 0; i < bases_.size(); ++i)
+      for (const std::size_t t : bases_[i].triangles) base_of_triangle[t] = i;
+    for (auto& [base, step] : next) {
+      if (step != Step::join_free_form) continue;
+      step = Step::become_triangles;
+      std::vector<std::size_t>& triangles = bases_[base].triangles;
+      if (has_joined_[triangles[0]]) continue;
+      const std::size_t other = free_form_beside(triangles, base_of_triangle, next);
+      if (other == none) continue;
+      for (const std::size_t t : triangles) has_joined_[t] = true;
+      auto& joined = bases_[other].triangles;
+      joined.insert(joined.end(), triangles.begin(), triangles.end());
+      triangles.clear();
+      next[other] = Step::become_free_form;
+    }
+  }
+
+  /// The base of the free form that triangles share the longest border with, of those that were not refused.
+  std::size_t free_form_beside(const std::vector<std::size_t>& triangles,
+                               const std::vector<std::size_t>& base_of_triangle,
+                               const std::map<std::size_t, Step>& next) const {
+    std::map<std::size_t, double> shared_length;
+    for (const std::size_t t : triangles)
+      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (mesh_.neighbour(h) == none) continue;
+        const std::size_t other = base_of_triangle[mesh_.neighbour(h)];
+        if (!dynamic_cast<const Height_field*>(bases_[other].surface.get())) continue;
+        const auto refused = next.find(other);
+        if (refused == next.end() || refused->second == Step::become_free_form) shared_length[other] += mesh_.length(h);
+      }
+    std::size_t best = none;
+    for (const auto& [other, length] : shared_length)
+      if (best == none || length > shared_length[best]) best = other;
+    return best;
+  }
+
   std::vector<Patch> remade(const Patch& patch, Step step) {
+    if (patch.triangles.empty()) return {};  // given to another
     switch (step) {
       case Step::take_chords:
         return division_.divided(patch.segment, patch.triangles,
@@ -121,6 +164,7 @@ class Shape_building {
         return division_.divided(patch.segment, patch.triangles, Form::free_form);
       case Step::halve:
         return division_.halved(patch);
+      case Step::join_free_form:
       case Step::become_triangles:
         break;
     }
@@ -145,6 +189,7 @@ class Shape_building {
   }
 
   const Halfedge_triangles& mesh_;
+  std::vector<char> has_joined_;  // by triangle: whether it was given to a free form
   Patch_division division_;
   std::vector<Patch> bases_, patches_;
   std::vector<std::size_t> base_of_;  // by patch
