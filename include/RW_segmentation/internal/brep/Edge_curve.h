@@ -99,7 +99,7 @@ inline Edge_curve spline_through(const std::vector<Point>& points, double diagon
 /// The line or circle through points, if there is one.
 inline std::optional<Edge_curve> line_or_circle_through(const std::vector<Point>& points, double diagonal) {
   constexpr double tolerance = 2e-5;  // of the diagonal; vertices of files in single precision are as exact
-  if (const auto line = line_through(points, tolerance * diagonal)) return line;
+  if (auto line = line_through(points, tolerance * diagonal)) return line;
   return circle_through(points, tolerance * diagonal, diagonal);
 }
 

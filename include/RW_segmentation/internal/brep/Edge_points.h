@@ -136,11 +136,19 @@ class Edge_points {
       const double own = length(i), before = i > 0 ? length(i - 1) : own, after = i + 1 < sides ? length(i + 1) : own;
       if (!(std::min(before, after) > 0) || own < long_side * std::min(before, after)) continue;
       std::vector<double> ways;
-      for (double way = before; way < own / 2; way *= 2) ways.push_back(way);
+      double way = before;
+      while (way < own / 2) {
+        ways.push_back(way);
+        way *= 2;
+      }
       const auto middle = static_cast<std::ptrdiff_t>(ways.size());
-      for (double way = after; way < own / 2; way *= 2) ways.push_back(own - way);
+      way = after;
+      while (way < own / 2) {
+        ways.push_back(own - way);
+        way *= 2;
+      }
       std::reverse(ways.begin() + middle, ways.end());
-      for (const double way : ways) result.push_back(points[i] + way / own * (points[i + 1] - points[i]));
+      for (const double on_side : ways) result.push_back(points[i] + on_side / own * (points[i + 1] - points[i]));
     }
     result.push_back(points.back());
     return result;

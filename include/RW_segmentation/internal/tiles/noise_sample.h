@@ -109,7 +109,8 @@ inline Noise_sample noise_sample(const Dual_mesh& mesh, double smoothing_length,
   constexpr std::size_t fewest = 4;
   const double area = std::accumulate(mesh.areas().begin(), mesh.areas().end(), 0.);
   const double faces_of_disc = pi * std::pow(radius * smoothing_length, 2) * static_cast<double>(faces) / area;
-  const double largest = std::min(static_cast<double>(of_patches / fewest), std::max(faces_of_disc, 1.));
+  const double largest =
+      std::min(static_cast<double>(of_patches) / static_cast<double>(fewest), std::max(faces_of_disc, 1.));
   return Noise_patches(mesh.graph(), of_patches, static_cast<std::size_t>(largest)).sample();
 }
 
