@@ -14,10 +14,13 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/boundary_representation.h>
+#include <RW_segmentation/internal/brep/Curved_triangle.h>
+#include <RW_segmentation/internal/brep/Edge_curve.h>
 
 #include <TopAbs_ShapeEnum.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -176,6 +179,51 @@ TEST(Boundary_representation, FitsASurfaceToAFreeForm) {
   for (const Boundary_face& face : result.faces) EXPECT_LE(face.distance_of_mesh, 1e-4);
   // The integral of the wave over the square is 0.
   expect_relative(result.report.volume, 4, 1e-4);
+}
+
+TEST(EdgeCurve, KeepsSidesStraightThatGoOverIntoArcs) {
+  using internal::brep::Point;
+  constexpr double length = 6, radius = 1, turn = 1;  // two lines, and an arc of four chords between them
+  std::vector<Point> points = {Point(-length, 0, 0)};
+  for (const double angle : {0., turn / 4, turn / 2, 3 * turn / 4, turn})
+    points.emplace_back(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0);
+  points.push_back(points.back() + length * Point(std::cos(turn), std::sin(turn), 0));
+  const auto swing = [&](const std::vector<Point>& passed) {  // away from the first line
+    const internal::brep::Edge_curve curve = internal::brep::curve_through(passed, 2 * length);
+    double largest = 0;
+    for (int i = 0; i <= 1000; ++i)
+      if (const Point p = curve.at_share(i / 1000.); p.x() < 0) largest = std::max(largest, std::abs(p.y()));
+    return largest;
+  };
+  EXPECT_GT(swing(points), 0.05 * length);
+  EXPECT_LT(swing(internal::brep::with_points_on_long_sides(points)), 0.002 * length);
+}
+
+TEST(EdgeCurve, TakesEvenSidesAsTheyAre) {
+  using internal::brep::Point;
+  const std::vector<Point> points = {Point(0, 0, 0), Point(1, 0, 0), Point(2.5, 1, 0), Point(3, 2.5, 1)};
+  EXPECT_EQ(internal::brep::with_points_on_long_sides(points), points);
+}
+
+TEST(CurvedTriangle, IsCloserToASphereThanItsChords) {
+  using internal::brep::Point;
+  const std::array<Point, 3> corners = {Point(1, 0, 0), Point(std::cos(0.3), std::sin(0.3), 0),
+                                        Point(std::cos(0.2), 0, std::sin(0.2))};
+  const internal::brep::Curved_triangle triangle(corners, corners);
+  for (const auto& [a, b, c] :
+       {std::array{0.5, 0.5, 0.}, std::array{1. / 3, 1. / 3, 1. / 3}, std::array{0.1, 0.2, 0.7}}) {
+    const double sagitta = 1 - Point(a * corners[0] + b * corners[1] + c * corners[2]).norm();
+    EXPECT_LT(std::abs(1 - triangle.at(a, b, c).norm()), 0.1 * sagitta);
+  }
+  EXPECT_EQ(triangle.at(0, 1, 0), corners[1]);
+}
+
+TEST(CurvedTriangle, IsFlatWhereItsNormalsAreItsOwn) {
+  using internal::brep::Point;
+  const std::array<Point, 3> corners = {Point(0, 0, 1), Point(3, 0, 1), Point(1, 2, 1)};
+  const internal::brep::Curved_triangle triangle(corners, {Point::UnitZ(), Point::UnitZ(), Point::UnitZ()});
+  const Point middle = (corners[0] + corners[1] + corners[2]) / 3;
+  EXPECT_LT((triangle.at(1. / 3, 1. / 3, 1. / 3) - middle).norm(), 1e-15);
 }
 
 TEST(Boundary_representation, OfAMeshWithABorderIsAShell) {

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
@@ -75,6 +76,38 @@ inline std::optional<Edge_curve> circle_through(const std::vector<Point>& points
     angle = turn > 0 ? turn : turn + angle;
   }
   return Edge_curve{new Geom_Circle(frame, radius), 0, angle};
+}
+
+/// Where points lie on a side: from either end as far as the side beside it is long, and twice as far each time.
+inline std::vector<double> ways_along_side(double length, double before, double after) {
+  std::vector<double> ways;
+  for (const auto& [first, is_from_end] : {std::pair(before, false), std::pair(after, true)}) {
+    double way = first;
+    while (way < length / 2) {
+      ways.push_back(is_from_end ? length - way : way);
+      way *= 2;
+    }
+  }
+  std::sort(ways.begin(), ways.end());
+  return ways;
+}
+
+/// Points, and more of them on sides that are much longer than one beside them. Kernels leave such where a line goes over
+/// into an arc, and a spline through the ends alone would swing out.
+inline std::vector<Point> with_points_on_long_sides(const std::vector<Point>& points) {
+  constexpr double long_side = 3;  // times the one beside it; arcs of kernels have even sides (`benchmark_brep`)
+  const std::size_t sides = points.size() - 1;
+  const auto length = [&](std::size_t i) { return (points[i + 1] - points[i]).norm(); };
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < sides; ++i) {
+    result.push_back(points[i]);
+    const double own = length(i), before = i > 0 ? length(i - 1) : own, after = i + 1 < sides ? length(i + 1) : own;
+    if (!(std::min(before, after) > 0) || own < long_side * std::min(before, after)) continue;
+    for (const double way : ways_along_side(own, before, after))
+      result.push_back(points[i] + way / own * (points[i + 1] - points[i]));
+  }
+  result.push_back(points.back());
+  return result;
 }
 
 /// The spline through some points.

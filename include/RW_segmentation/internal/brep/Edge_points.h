@@ -124,36 +124,6 @@ class Edge_points {
     return points;
   }
 
-  /// Points in between on sides that are much longer than one beside them. Kernels leave such where a line goes over into
-  /// an arc, and a spline through the ends alone would swing out.
-  static std::vector<Point> with_points_on_long_sides(const std::vector<Point>& points) {
-    constexpr double long_side = 3;  // times the one beside it; arcs of kernels have even sides (`benchmark_brep`)
-    const std::size_t sides = points.size() - 1;
-    const auto length = [&](std::size_t i) { return (points[i + 1] - points[i]).norm(); };
-    std::vector<Point> result;
-    for (std::size_t i = 0; i < sides; ++i) {
-      result.push_back(points[i]);
-      const double own = length(i), before = i > 0 ? length(i - 1) : own, after = i + 1 < sides ? length(i + 1) : own;
-      if (!(std::min(before, after) > 0) || own < long_side * std::min(before, after)) continue;
-      std::vector<double> ways;
-      double way = before;
-      while (way < own / 2) {
-        ways.push_back(way);
-        way *= 2;
-      }
-      const auto middle = static_cast<std::ptrdiff_t>(ways.size());
-      way = after;
-      while (way < own / 2) {
-        ways.push_back(own - way);
-        way *= 2;
-      }
-      std::reverse(ways.begin() + middle, ways.end());
-      for (const double on_side : ways) result.push_back(points[i] + on_side / own * (points[i + 1] - points[i]));
-    }
-    result.push_back(points.back());
-    return result;
-  }
-
   /// The chain with points in between, smoothed and projected on both surfaces in turn, which takes off the teeth where
   /// they touch each other.
   std::vector<Point> between_surfaces(const Chain& chain, const std::vector<const Patch_surface*>& surfaces) const {

@@ -39,19 +39,18 @@
 
 namespace RW_segmentation::internal::brep {
 
+/// By the kernel's default, which may be off by 3 % where a border has many knots.
 inline double area_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(shape, properties);
   return properties.Mass();
 }
 
-/// Of areas in reports, relative; the kernel's default may be off by 3 % where a border has many knots.
-constexpr double error_of_areas = 1e-5;
-
 /// As exact as a report needs it; takes several times as long.
 inline double exact_area_of(const TopoDS_Shape& shape) {
+  constexpr double relative_error = 1e-5;  // between two steps of the kernel's integration
   GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties, error_of_areas);
+  BRepGProp::SurfaceProperties(shape, properties, relative_error);
   return properties.Mass();
 }
 
@@ -192,44 +191,10 @@ class Shape_attempt {
       for (const std::size_t v : corners_of(mesh_, patches_[i].triangles))
         if (!is_on_border[v]) points.push_back(mesh_.point(v));
       const double deviation =
-          field->fit(points, points_between_vertices(patches_[i]), accuracy_of_free_form * mesh_.diagonal());
+          field->fit(points, points_between_vertices(mesh_, patches_[i].triangles, Height_field::most_spans),
+                     accuracy_of_free_form * mesh_.diagonal());
       if (!(deviation < largest_gap * mesh_.diagonal())) reject(i, "no free form comes close to the mesh");
     }
-  }
-
-  /// Points between the vertices of a patch, no farther apart than the knots of a free form may be, so that it does not
-  /// wave within long triangles: rows along the longest side of each.
-  std::vector<Point> points_between_vertices(const Patch& patch) const {
-    Eigen::AlignedBox3d box;
-    std::map<std::size_t, Point> normals;  // by vertex, summed over the areas of the patch's triangles
-    for (const std::size_t t : patch.triangles)
-      for (const std::size_t v : mesh_.corners(t)) {
-        box.extend(mesh_.point(v));
-        normals.emplace(v, Point::Zero()).first->second += mesh_.area_vector(t);
-      }
-    for (auto& [v, normal] : normals) normal.normalize();
-    const double spacing = box.diagonal().norm() / double(Height_field::most_spans);
-    std::vector<Point> points;
-    for (const std::size_t t : patch.triangles) {
-      std::size_t longest = 3 * t;
-      for (std::size_t h = 3 * t + 1; h < 3 * t + 3; ++h)
-        if (mesh_.length(h) > mesh_.length(longest)) longest = h;
-      const std::size_t va = mesh_.from(longest), vb = mesh_.to(longest), vc = mesh_.to(mesh_.next(longest));
-      const Curved_triangle triangle({mesh_.point(va), mesh_.point(vb), mesh_.point(vc)},
-                                     {normals[va], normals[vb], normals[vc]});
-      const double length = mesh_.length(longest);
-      const double height = length > 0 ? 2 * mesh_.area_vector(t).norm() / length : 0;
-      const int rows = 1 + static_cast<int>(height / spacing);
-      for (int row = 0; row < rows; ++row) {
-        const double up = (row + 0.5) / rows;
-        const int columns = 1 + static_cast<int>((1 - up) * length / spacing);
-        for (int column = 0; column < columns; ++column) {
-          const double along = (column + 0.5) / columns;
-          points.push_back(triangle.at((1 - up) * (1 - along), (1 - up) * along, up));
-        }
-      }
-    }
-    return points;
   }
 
   void lay_edges_on_surfaces() {
