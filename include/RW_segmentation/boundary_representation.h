@@ -29,8 +29,6 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>
 
-#include <BRepGProp.hxx>
-#include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -144,7 +142,7 @@ inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const b
     result.type = Surface_type::plane;
   else if (const auto* placed = dynamic_cast<const brep::Placed_surface*>(patch.surface.get()))
     result.type = placed->type();
-  result.area = brep::exact_area_of(result.face);
+  result.area = building.integrals()[patch_number].area;
   result.mesh_area = brep::area_of(mesh, patch.triangles);
   result.distance_of_mesh = brep::distance_of_corners(mesh, patch);
   result.distance_to_mesh = result.is_triangle ? 0 : distance.of_face(result.face);
@@ -189,12 +187,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
   report.edges = building.number_of_edges();
   report.diagonal = triangles.diagonal();
   report.refusals = building.refusals();
+  report.volume = nesting.volume(building.integrals());
   report.mesh_volume = nesting.mesh_volume();
-  if (report.solids > 0) {
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(nesting.solids_alone(), properties);
-    report.volume = properties.Mass();
-  }
   progress(1);
   return result;
 } catch (const Standard_Failure& error) {

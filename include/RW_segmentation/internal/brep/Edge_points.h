@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
@@ -56,7 +57,7 @@ class Edge_points {
     for (std::size_t h = 0; h < mesh.number_of_halfedges(); ++h) {
       for (const std::size_t v : {mesh.from(h), mesh.to(h)}) shortest[v] = std::min(shortest[v], mesh.length(h));
       if (!borders.is_branch(mesh.from(h))) continue;
-      const Patch_surface* surface = binding(borders.patch_of(h / 3));
+      const Patch_surface* surface = binding(borders.patch_of(h / 3)).get();
       auto& at_vertex = surfaces[mesh.from(h)];
       if (surface && std::find(at_vertex.begin(), at_vertex.end(), surface) == at_vertex.end())
         at_vertex.push_back(surface);
@@ -69,7 +70,14 @@ class Edge_points {
   /// Of a vertex of the mesh.
   const Point& position(std::size_t vertex) const { return positions_[vertex]; }
 
-  /// Points that the curve of a chain passes through, from its first to its last vertex.
+  /// The surface of a patch if it is known; null for free forms, triangles and `none`.
+  std::shared_ptr<const Patch_surface> binding(std::size_t patch) const {
+    if (patch == none || dynamic_cast<const Height_field*>(patches_[patch].surface.get())) return nullptr;
+    return patches_[patch].surface;
+  }
+
+  /// Points that the curve of a chain passes through, from its first to its last vertex. They depend on where these two are, on
+  /// the vertices between them and on what binds the chain on either side.
   std::vector<Point> points_of(const Chain& chain) const {
     if (is_cut(chain) && !chain.is_closed()) {
       std::vector<Point> points = straight_in_parameters(chain);
@@ -77,18 +85,11 @@ class Edge_points {
     }
     std::vector<const Patch_surface*> surfaces;
     for (const std::size_t patch : {chain.left, chain.right})
-      if (patch != none && binding(patch)) surfaces.push_back(binding(patch));
+      if (binding(patch)) surfaces.push_back(binding(patch).get());
     return surfaces.size() == 2 ? between_surfaces(chain, surfaces) : through_vertices(chain, surfaces);
   }
 
  private:
-  /// The surface of a patch if it is known; null for free forms and triangles.
-  const Patch_surface* binding(std::size_t patch) const {
-    const Patch& p = patches_[patch];
-    if (!p.surface || dynamic_cast<const Height_field*>(p.surface.get())) return nullptr;
-    return p.surface.get();
-  }
-
   /// Whether a chain lies within one segment's surface.
   bool is_cut(const Chain& chain) const {
     if (chain.right == none) return false;

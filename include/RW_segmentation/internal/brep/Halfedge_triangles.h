@@ -43,6 +43,7 @@ class Halfedge_triangles {
       }
     }
     diagonal_ = scale * mesh.unit();
+    middle_ = scale * mesh.origin();
     pair_halfedges();
   }
 
@@ -51,6 +52,8 @@ class Halfedge_triangles {
   const std::vector<Point>& points() const { return points_; }
   /// Of the box around the mesh.
   double diagonal() const { return diagonal_; }
+  /// Likewise.
+  const Point& middle() const { return middle_; }
 
   static std::size_t next(std::size_t halfedge) { return halfedge % 3 == 2 ? halfedge - 2 : halfedge + 1; }
   std::size_t from(std::size_t halfedge) const { return corners_[halfedge / 3][halfedge % 3]; }
@@ -131,6 +134,7 @@ class Halfedge_triangles {
   std::vector<Dual_mesh::Index> face_;
   std::vector<std::size_t> opposite_;
   double diagonal_ = 0;
+  Point middle_;
 };
 
 }  // namespace RW_segmentation::internal::brep

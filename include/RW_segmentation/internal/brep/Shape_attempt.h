@@ -7,16 +7,15 @@
 #include <RW_segmentation/internal/brep/Edge_curve.h>
 #include <RW_segmentation/internal/brep/Edge_parameters.h>
 #include <RW_segmentation/internal/brep/Edge_points.h>
+#include <RW_segmentation/internal/brep/Face_integrals.h>
 #include <RW_segmentation/internal/brep/Height_field.h>
 #include <RW_segmentation/internal/brep/Patch.h>
 #include <RW_segmentation/internal/brep/Patch_borders.h>
 #include <RW_segmentation/internal/brep/Placed_surface.h>
 #include <RW_segmentation/internal/brep/kernel_errors.h>
 
-#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
@@ -28,31 +27,18 @@
 #include <TopoDS_Wire.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
-
-/// By the kernel's default, which may be off by 3 % where a border has many knots.
-inline double area_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties);
-  return properties.Mass();
-}
-
-/// As exact as a report needs it; takes several times as long.
-inline double exact_area_of(const TopoDS_Shape& shape) {
-  constexpr double relative_error = 1e-5;  // between two steps of the kernel's integration
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties, relative_error);
-  return properties.Mass();
-}
 
 /// A patch whose face cannot be made, and why.
 struct Rejection {
@@ -69,8 +55,23 @@ struct Face_border {
   bool operator==(const Face_border& other) const { return points == other.points && tolerances == other.tolerances; }
 };
 
-/// What was found valid in an earlier attempt: the border of the face on a surface.
-using Valid_borders = std::map<std::shared_ptr<const Patch_surface>, Face_border>;
+/// What earlier attempts found, lest it be done again for what has not changed.
+struct Earlier_attempts {
+  struct Valid_face {
+    Face_border border;
+    Face_integrals integrals;
+  };
+  /// The vertices of a chain, and what binds it on either side.
+  using Chain_on_surfaces =
+      std::tuple<std::vector<std::size_t>, std::shared_ptr<const Patch_surface>, std::shared_ptr<const Patch_surface>>;
+  struct Curve_between {
+    std::array<Point, 2> ends;
+    Edge_curve curve;
+  };
+
+  std::map<std::shared_ptr<const Patch_surface>, Valid_face> faces;  // by their surfaces
+  std::map<Chain_on_surfaces, Curve_between> curves;
+};
 
 /// The faces of patches, made once. They share their edges and vertices, so that they are as closed as the mesh.
 ///
@@ -78,9 +79,9 @@ using Valid_borders = std::map<std::shared_ptr<const Patch_surface>, Face_border
 /// are measured between vertices, edges and surfaces.
 class Shape_attempt {
  public:
-  /// \param valid faces on the same surface with the same border are not checked again; changed
-  Shape_attempt(const Halfedge_triangles& mesh, const std::vector<Patch>& patches, Valid_borders& valid)
-      : mesh_(mesh), patches_(patches), borders_(mesh, patches), points_(mesh, patches, borders_), valid_(valid) {
+  /// \param earlier added to
+  Shape_attempt(const Halfedge_triangles& mesh, const std::vector<Patch>& patches, Earlier_attempts& earlier)
+      : mesh_(mesh), patches_(patches), borders_(mesh, patches), points_(mesh, patches, borders_), earlier_(earlier) {
     make_vertices();
     make_edges();
     if (rejections_.empty()) sample_borders();
@@ -93,6 +94,8 @@ class Shape_attempt {
   const std::vector<Rejection>& rejections() const { return rejections_; }
   /// By patch.
   const std::vector<TopoDS_Face>& faces() const { return faces_; }
+  /// By patch; cones are from the middle of the mesh.
+  const std::vector<Face_integrals>& integrals() const { return integrals_; }
   const Patch_borders& borders() const { return borders_; }
   /// By patch: the largest of the edges round it.
   std::vector<double> tolerances() const {
@@ -153,7 +156,7 @@ class Shape_attempt {
     if (has_chords(chain.left) || has_chords(chain.right))
       edge.curve = segment_between(points_.position(chain.vertices.front()), points_.position(chain.vertices.back()));
     else
-      edge.curve = curve_through(points_.points_of(chain), mesh_.diagonal());
+      edge.curve = smooth_curve(chain);
     const TopoDS_Vertex &first = vertices_[chain.vertices.front()], &last = vertices_[chain.vertices.back()];
     BRep_Builder builder;
     builder.MakeEdge(edge.edge, edge.curve.curve, least_tolerance);
@@ -164,6 +167,19 @@ class Shape_attempt {
     builder.SameRange(edge.edge, true);
     widen(first, edge.curve.at_share(0));
     widen(last, edge.curve.at_share(1));
+  }
+
+  /// \throws Standard_Failure if there is no such curve
+  const Edge_curve& smooth_curve(const Chain& chain) {
+    const std::array<Point, 2> ends = {points_.position(chain.vertices.front()),
+                                       points_.position(chain.vertices.back())};
+    Earlier_attempts::Chain_on_surfaces place(chain.vertices, points_.binding(chain.left),
+                                              points_.binding(chain.right));
+    const auto known = earlier_.curves.find(place);
+    if (known != earlier_.curves.end() && known->second.ends == ends) return known->second.curve;
+    Earlier_attempts::Curve_between& found = earlier_.curves[std::move(place)];
+    found = {ends, curve_through(points_.points_of(chain), mesh_.diagonal())};
+    return found.curve;
   }
 
   void sample_borders() {
@@ -236,6 +252,7 @@ class Shape_attempt {
 
   void make_faces() {
     faces_.resize(patches_.size());
+    integrals_.resize(patches_.size());
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       try {
         faces_[i] = make_face(i);
@@ -248,18 +265,25 @@ class Shape_attempt {
 
   void check_face(std::size_t i) {
     const Patch& patch = patches_[i];
-    if (patch.has_triangles()) return;
+    if (patch.has_triangles()) {
+      integrals_[i] = integrals_of(faces_[i], mesh_.middle());
+      return;
+    }
     Face_border border = {border_points_[i], tolerances_round(i)};
-    const auto known = valid_.find(patch.surface);
-    if (known != valid_.end() && known->second == border) return;
+    const auto known = earlier_.faces.find(patch.surface);
+    if (known != earlier_.faces.end() && known->second.border == border) {
+      integrals_[i] = known->second.integrals;
+      return;
+    }
     if (std::string error = first_error(faces_[i]); !error.empty())
       return reject(i, std::move(error), Rejection::Cause::face_not_valid);
+    integrals_[i] = integrals_of(faces_[i], mesh_.middle());
     const double area = area_of(mesh_, patch.triangles);
     const double least_area = 1e-6 * mesh_.diagonal() * mesh_.diagonal();
-    if (!(std::abs(area_of(faces_[i]) - area) <= largest_error_of_area * area + least_area))
+    if (!(std::abs(integrals_[i].area - area) <= largest_error_of_area * area + least_area))
       reject(i, "its area is not that of its triangles");
     else
-      valid_[patch.surface] = std::move(border);
+      earlier_.faces[patch.surface] = {std::move(border), integrals_[i]};
   }
 
   std::vector<double> tolerances_round(std::size_t patch) const {
@@ -348,8 +372,9 @@ class Shape_attempt {
   std::vector<TopoDS_Vertex> vertices_;            // by mesh vertex; null unless it is a branch point
   std::vector<Edge> edges_;                        // by chain
   std::vector<TopoDS_Face> faces_;                 // by patch
+  std::vector<Face_integrals> integrals_;          // by patch
   std::vector<std::vector<Point>> border_points_;  // by patch
-  Valid_borders& valid_;
+  Earlier_attempts& earlier_;
   std::vector<Rejection> rejections_;
 };
 

@@ -52,6 +52,8 @@ class Shape_building {
   const std::vector<Patch>& patches() const { return patches_; }
   /// By patch; null for a triangle of no area.
   const std::vector<TopoDS_Face>& faces() const { return faces_; }
+  /// By patch; cones are from the middle of the mesh.
+  const std::vector<Face_integrals>& integrals() const { return integrals_; }
   /// By patch.
   const std::vector<double>& tolerances() const { return tolerances_; }
   std::size_t patch_of(std::size_t triangle) const { return patch_of_[triangle]; }
@@ -63,7 +65,7 @@ class Shape_building {
   /// \returns whether all is done
   bool attempt() {
     separate_triangles();
-    const Shape_attempt attempt(mesh_, patches_, valid_borders_);
+    const Shape_attempt attempt(mesh_, patches_, earlier_);
     std::map<std::size_t, Step> next;  // of bases
     for (const Rejection& rejection : attempt.rejections()) {
       const std::size_t base = base_of_[rejection.patch];
@@ -76,6 +78,8 @@ class Shape_building {
     if (next.empty()) {
       faces_ = attempt.faces();
       faces_.resize(patches_.size());
+      integrals_ = attempt.integrals();
+      integrals_.resize(patches_.size());
       tolerances_ = attempt.tolerances();
       number_of_edges_ = attempt.borders().chains().size();
       patch_of_.resize(mesh_.number_of_triangles());
@@ -193,8 +197,9 @@ class Shape_building {
   Patch_division division_;
   std::vector<Patch> bases_, patches_;
   std::vector<std::size_t> base_of_;  // by patch
-  Valid_borders valid_borders_;
+  Earlier_attempts earlier_;
   std::vector<TopoDS_Face> faces_;
+  std::vector<Face_integrals> integrals_;
   std::vector<double> tolerances_;
   std::vector<std::size_t> patch_of_;  // by triangle
   std::map<std::string, std::size_t> refusals_;

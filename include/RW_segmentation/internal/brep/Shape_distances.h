@@ -6,20 +6,27 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
 #include <RW_segmentation/internal/brep/Patch.h>
+#include <RW_segmentation/internal/brep/Patch_surface.h>
 #include <RW_segmentation/internal/mesh/closest_face.h>
 
+#include <Eigen/Geometry>
+
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepTools.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomAbs_Shape.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <gp_Pnt2d.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace RW_segmentation::internal::brep {
 
@@ -33,6 +40,49 @@ inline double distance_of_corners(const Halfedge_triangles& mesh, const Patch& p
   return largest;
 }
 
+/// The border of a face in the parameters of its surface, as sides of polygons.
+class Border_polygon {
+ public:
+  explicit Border_polygon(const TopoDS_Face& face) {
+    constexpr int least_sides = 8, sides_of_span = 2;
+    for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next()) {
+      double first = 0, last = 0;
+      const Handle(Geom2d_Curve) parameters =
+          BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Current()), face, first, last);
+      const Geom2dAdaptor_Curve curve(parameters, first, last);
+      const int sides = std::max(least_sides, sides_of_span * curve.NbIntervals(GeomAbs_C3));
+      Parameters from = point(curve, first);
+      for (int i = 1; i <= sides; ++i) {
+        const Parameters to = point(curve, first + (last - first) * i / sides);
+        sides_.push_back({from, to});
+        box_.extend(from = to);
+      }
+    }
+  }
+
+  const Eigen::AlignedBox2d& box() const { return box_; }
+
+  /// Whether a ray from a point leaves it.
+  bool contains(const Parameters& p) const {
+    bool is_inside = false;
+    for (const auto& [from, to] : sides_) {
+      if ((from.y() > p.y()) == (to.y() > p.y())) continue;
+      const double share = (p.y() - from.y()) / (to.y() - from.y());
+      if (from.x() + share * (to.x() - from.x()) > p.x()) is_inside = !is_inside;
+    }
+    return is_inside;
+  }
+
+ private:
+  static Parameters point(const Geom2dAdaptor_Curve& curve, double parameter) {
+    const gp_Pnt2d uv = curve.Value(parameter);
+    return {uv.X(), uv.Y()};
+  }
+
+  std::vector<std::array<Parameters, 2>> sides_;
+  Eigen::AlignedBox2d box_;
+};
+
 /// How far faces are from the mesh.
 class Distance_to_mesh {
  public:
@@ -44,14 +94,13 @@ class Distance_to_mesh {
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
       largest = std::max(largest, of_edge(TopoDS::Edge(edge.Current())));
     constexpr int steps = 4;
-    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-    BRepTools::UVBounds(face, u0, u1, v0, v1);
-    BRepTopAdaptor_FClass2d inside(face, 1e-7);
+    const Border_polygon border(face);
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
     for (int i = 0; i < steps; ++i)
       for (int j = 0; j < steps; ++j) {
-        const gp_Pnt2d uv(u0 + (u1 - u0) * (i + 0.5) / steps, v0 + (v1 - v0) * (j + 0.5) / steps);
-        if (inside.Perform(uv) == TopAbs_IN) largest = std::max(largest, of_point(surface->Value(uv.X(), uv.Y())));
+        const Parameters share((i + 0.5) / steps, (j + 0.5) / steps);
+        const Parameters uv = border.box().min() + share.cwiseProduct(border.box().sizes());
+        if (border.contains(uv)) largest = std::max(largest, of_point(surface->Value(uv.x(), uv.y())));
       }
     return largest;
   }

@@ -3,6 +3,7 @@
 #ifndef RW_SEGMENTATION_INTERNAL_BREP_SHELL_NESTING_H
 #define RW_SEGMENTATION_INTERNAL_BREP_SHELL_NESTING_H
 
+#include <RW_segmentation/internal/brep/Face_integrals.h>
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
 #include <RW_segmentation/internal/brep/Patch_surface.h>
 #include <RW_segmentation/internal/brep/Shape_building.h>
@@ -60,29 +61,33 @@ class Shell_nesting {
     std::vector<TopoDS_Shape> solids;
     for (const Component& c : components_)
       if (!c.solid.IsNull()) solids.push_back(c.solid);
-    solids_alone_ = joined(solids);
     shapes.insert(shapes.end(), solids.begin(), solids.end());
     shape_ = joined(shapes);
   }
 
   /// A solid, a shell, or a compound of several of them.
   const TopoDS_Shape& shape() const { return shape_; }
-  /// Without the open shells.
-  const TopoDS_Shape& solids_alone() const { return solids_alone_; }
   std::size_t solids() const { return solids_; }
   std::size_t voids() const { return voids_; }
   std::size_t open_shells() const { return open_shells_; }
   /// Of the mesh; voids are not counted in.
   double mesh_volume() const {
-    double sum = 0;
-    for (const Component& c : components_)
-      if (c.is_closed) sum += c.outside == none ? std::abs(c.volume) : c.volume;
-    return sum;
+    return sum_over_solids([](const Component& c) { return c.volume; });
+  }
+  /// Of the solids without their voids.
+  /// \param integrals by patch
+  double volume(const std::vector<Face_integrals>& integrals) const {
+    return sum_over_solids([&](const Component& c) {
+      double sum = 0;
+      for (const std::size_t patch : c.patches) sum += integrals[patch].volume;
+      return sum;
+    });
   }
 
  private:
   struct Component {
     std::vector<std::size_t> triangles;
+    std::vector<std::size_t> patches;  // rising
     bool is_closed = true;
     double volume = 0;           // signed; of closed ones
     std::size_t outside = none;  // the component that this one is a void in
@@ -95,7 +100,7 @@ class Shell_nesting {
     BRep_Builder builder;
     builder.MakeShell(result.shell);
     const Point origin = mesh_.centre(triangles[0]);
-    std::vector<std::size_t> patches;
+    std::vector<std::size_t>& patches = result.patches;
     for (const std::size_t t : triangles) {
       result.volume += (mesh_.centre(t) - origin).dot(mesh_.area_vector(t)) / 3;
       for (std::size_t h = 3 * t; h < 3 * t + 3; ++h)
@@ -109,6 +114,14 @@ class Shell_nesting {
     result.shell.Closed(BRep_Tool::IsClosed(result.shell));
     result.triangles = std::move(triangles);
     return result;
+  }
+
+  template <class Volume>
+  double sum_over_solids(const Volume& volume) const {
+    double sum = 0;
+    for (const Component& c : components_)
+      if (c.is_closed) sum += c.outside == none ? std::abs(volume(c)) : volume(c);
+    return sum;
   }
 
   std::size_t smallest_around(std::size_t inner) const {
@@ -148,7 +161,7 @@ class Shell_nesting {
   const Halfedge_triangles& mesh_;
   std::vector<Component> components_;
   std::size_t solids_ = 0, voids_ = 0, open_shells_ = 0;
-  TopoDS_Shape shape_, solids_alone_;
+  TopoDS_Shape shape_;
 };
 
 }  // namespace RW_segmentation::internal::brep
