@@ -178,7 +178,10 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
     report.mesh_area += result.faces.back().mesh_area;
   }
   progress(0.9);
-  report.error = brep::first_error(result.shape);
+  // Each face was checked by itself as it was made, but for triangles.
+  report.error = brep::first_error(result.shape, brep::Checked::topology);
+  for (const Boundary_face& face : result.faces)
+    if (report.error.empty() && face.is_triangle) report.error = brep::first_error(face.face);
   report.is_valid = report.error.empty();
   report.is_closed = missing_faces == 0;
   report.solids = nesting.solids();

@@ -16,7 +16,10 @@
 
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
 #include <Geom_Plane.hxx>
+#include <Geom_Surface.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
@@ -61,16 +64,23 @@ struct Earlier_attempts {
     Face_border border;
     Face_integrals integrals;
   };
-  /// The vertices of a chain, and what binds it on either side.
-  using Chain_on_surfaces =
-      std::tuple<std::vector<std::size_t>, std::shared_ptr<const Patch_surface>, std::shared_ptr<const Patch_surface>>;
+  /// The vertices of a chain, what binds it on either side, and whether it is a chord.
+  using Chain_on_surfaces = std::tuple<std::vector<std::size_t>, std::shared_ptr<const Patch_surface>,
+                                       std::shared_ptr<const Patch_surface>, bool>;
   struct Curve_between {
     std::array<Point, 2> ends;
     Edge_curve curve;
   };
+  using Curve_on_surface = std::pair<Handle(Geom_Curve), Handle(Geom_Surface)>;
+  struct Laid_curve {
+    Handle(Geom2d_Curve) parameters;
+    double deviation = 0;
+    std::array<Point, 2> ends;  // on the surface
+  };
 
   std::map<std::shared_ptr<const Patch_surface>, Valid_face> faces;  // by their surfaces
   std::map<Chain_on_surfaces, Curve_between> curves;
+  std::map<Curve_on_surface, Laid_curve> laid_curves;
 };
 
 /// The faces of patches, made once. They share their edges and vertices, so that they are as closed as the mesh.
@@ -153,10 +163,7 @@ class Shape_attempt {
   bool has_chords(std::size_t patch) const { return patch != none && patches_[patch].has_chords(); }
 
   void make_edge(const Chain& chain, Edge& edge) {
-    if (has_chords(chain.left) || has_chords(chain.right))
-      edge.curve = segment_between(points_.position(chain.vertices.front()), points_.position(chain.vertices.back()));
-    else
-      edge.curve = smooth_curve(chain);
+    edge.curve = curve_of(chain);
     const TopoDS_Vertex &first = vertices_[chain.vertices.front()], &last = vertices_[chain.vertices.back()];
     BRep_Builder builder;
     builder.MakeEdge(edge.edge, edge.curve.curve, least_tolerance);
@@ -169,16 +176,21 @@ class Shape_attempt {
     widen(last, edge.curve.at_share(1));
   }
 
+  /// Whether a chain is the straight line between its ends.
+  bool is_chord(const Chain& chain) const { return has_chords(chain.left) || has_chords(chain.right); }
+
   /// \throws Standard_Failure if there is no such curve
-  const Edge_curve& smooth_curve(const Chain& chain) {
+  const Edge_curve& curve_of(const Chain& chain) {
     const std::array<Point, 2> ends = {points_.position(chain.vertices.front()),
                                        points_.position(chain.vertices.back())};
-    Earlier_attempts::Chain_on_surfaces place(chain.vertices, points_.binding(chain.left),
-                                              points_.binding(chain.right));
+    Earlier_attempts::Chain_on_surfaces place(chain.vertices, points_.binding(chain.left), points_.binding(chain.right),
+                                              is_chord(chain));
     const auto known = earlier_.curves.find(place);
     if (known != earlier_.curves.end() && known->second.ends == ends) return known->second.curve;
+    const Edge_curve curve =
+        is_chord(chain) ? segment_between(ends[0], ends[1]) : curve_through(points_.points_of(chain), mesh_.diagonal());
     Earlier_attempts::Curve_between& found = earlier_.curves[std::move(place)];
-    found = {ends, curve_through(points_.points_of(chain), mesh_.diagonal())};
+    found = {ends, curve};
     return found.curve;
   }
 
@@ -216,12 +228,11 @@ class Shape_attempt {
   void lay_edges_on_surfaces() {
     for (std::size_t c = 0; c < edges_.size(); ++c) {
       const Chain& chain = borders_.chains()[c];
-      const bool is_chord = has_chords(chain.left) || has_chords(chain.right);
       for (const std::size_t patch : {chain.left, chain.right}) {
         if (patch == none || patches_[patch].has_triangles()) continue;
         try {
           const double gap = lay_on_surface(edges_[c], chain, *patches_[patch].surface);
-          if (!(gap < (is_chord ? largest_gap_of_chord : largest_gap) * mesh_.diagonal()))
+          if (!(gap < (is_chord(chain) ? largest_gap_of_chord : largest_gap) * mesh_.diagonal()))
             reject(patch, "an edge is far from its surface", Rejection::Cause::edge_far_from_surface);
         } catch (const Standard_Failure& error) {
           reject(patch, error.GetMessageString(), Rejection::Cause::face_not_valid);
@@ -239,15 +250,24 @@ class Shape_attempt {
 
   /// \returns how far the edge is from the surface
   double lay_on_surface(Edge& edge, const Chain& chain, const Patch_surface& surface) {
-    const Edge_parameters parameters(edge.curve, surface, mesh_.diagonal());
-    const double deviation = parameters.deviation();
+    const Earlier_attempts::Laid_curve& laid = laid_curve(edge.curve, surface);
     BRep_Builder builder;
-    builder.UpdateEdge(edge.edge, parameters.curve(), surface.geometry(), TopLoc_Location(), least_tolerance);
+    builder.UpdateEdge(edge.edge, laid.parameters, surface.geometry(), TopLoc_Location(), least_tolerance);
     builder.Range(edge.edge, edge.curve.first, edge.curve.last);
-    edge.tolerance = std::max(edge.tolerance, 1.05 * deviation + least_tolerance);
-    widen(vertices_[chain.vertices.front()], parameters.on_surface(edge.curve.first));
-    widen(vertices_[chain.vertices.back()], parameters.on_surface(edge.curve.last));
-    return deviation;
+    edge.tolerance = std::max(edge.tolerance, 1.05 * laid.deviation + least_tolerance);
+    widen(vertices_[chain.vertices.front()], laid.ends[0]);
+    widen(vertices_[chain.vertices.back()], laid.ends[1]);
+    return laid.deviation;
+  }
+
+  const Earlier_attempts::Laid_curve& laid_curve(const Edge_curve& curve, const Patch_surface& surface) {
+    Earlier_attempts::Laid_curve& laid = earlier_.laid_curves[{curve.curve, surface.geometry()}];
+    if (!laid.parameters.IsNull()) return laid;
+    const Edge_parameters parameters(curve, surface, mesh_.diagonal());
+    laid = {parameters.curve(),
+            parameters.deviation(),
+            {parameters.on_surface(curve.first), parameters.on_surface(curve.last)}};
+    return laid;
   }
 
   void make_faces() {

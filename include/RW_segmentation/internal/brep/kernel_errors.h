@@ -58,9 +58,15 @@ inline std::string first_error(const Handle(BRepCheck_Result) & result) {
   return "";
 }
 
+/// What the kernel checks.
+enum class Checked {
+  all,
+  topology,  ///< not whether curves keep to their surfaces or cross each other, which takes most of the time
+};
+
 /// The first thing that is wrong with a shape; empty if it is valid.
-inline std::string first_error(const TopoDS_Shape& shape) {
-  const BRepCheck_Analyzer check(shape);
+inline std::string first_error(const TopoDS_Shape& shape, Checked checked = Checked::all) {
+  const BRepCheck_Analyzer check(shape, checked == Checked::all);
   if (check.IsValid()) return "";
   for (const TopAbs_ShapeEnum type : {TopAbs_VERTEX, TopAbs_EDGE, TopAbs_WIRE, TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID})
     for (TopExp_Explorer part(shape, type); part.More(); part.Next())
