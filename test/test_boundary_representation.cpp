@@ -16,8 +16,27 @@
 #include <RW_segmentation/boundary_representation.h>
 #include <RW_segmentation/internal/brep/Curved_triangle.h>
 #include <RW_segmentation/internal/brep/Edge_curve.h>
+#include <RW_segmentation/internal/brep/Face_integrals.h>
+#include <RW_segmentation/internal/brep/Shape_distances.h>
+#include <RW_segmentation/internal/brep/kernel_errors.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <GeomConvert.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <Geom_Surface.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <TopAbs_ShapeEnum.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
+#include <gp_Ax3.hxx>
+#include <gp_Pln.hxx>
 
 #include <algorithm>
 #include <array>
@@ -120,6 +139,7 @@ TEST(Boundary_representation, HasAValidFaceOnEachSurfaceOfASolid) {
       const auto surfaces = designed_surfaces(solid);
       const Boundary_representation result = represented(solid, surfaces);
       EXPECT_EQ(result.defect(), "");
+      EXPECT_EQ(internal::brep::first_error(result.shape), "");
       EXPECT_EQ(result.shape.ShapeType(), TopAbs_SOLID);
       EXPECT_EQ(result.number_of_triangles(), 0U);
       EXPECT_EQ(result.number_of_faces(Surface_type::free_form), 0U);
@@ -224,6 +244,82 @@ TEST(CurvedTriangle, IsFlatWhereItsNormalsAreItsOwn) {
   const internal::brep::Curved_triangle triangle(corners, {Point::UnitZ(), Point::UnitZ(), Point::UnitZ()});
   const Point middle = (corners[0] + corners[1] + corners[2]) / 3;
   EXPECT_LT((triangle.at(1. / 3, 1. / 3, 1. / 3) - middle).norm(), 1e-15);
+}
+
+using internal::brep::Face_integrals;
+using internal::brep::integrals_of;
+
+/// The part of a surface between four parameters.
+TopoDS_Face part_of(const Handle(Geom_Surface) & surface, double u0, double u1, double v0, double v1) {
+  return BRepBuilderAPI_MakeFace(surface, u0, u1, v0, v1, 1e-7);
+}
+
+/// Surfaces of revolution in a frame that is not that of the space.
+std::vector<Handle(Geom_Surface)> surfaces_of_revolution() {
+  const gp_Ax3 frame(gp_Pnt(0.5, -1, 2), gp_Dir(1, 2, 2), gp_Dir(2, 1, -2));
+  return {new Geom_CylindricalSurface(frame, 1.5), new Geom_ConicalSurface(frame, 0.4, 2),
+          new Geom_SphericalSurface(frame, 1.5), new Geom_ToroidalSurface(frame, 2, 0.7)};
+}
+
+TEST(FaceIntegrals, AreThoseOfSpheresAndToriFromWhereverTheyAreSeen) {
+  const double r = 1.5, major = 2, minor = 0.7;
+  const TopoDS_Face sphere = part_of(surfaces_of_revolution()[2], 0, 2 * pi, -pi / 2, pi / 2);
+  const TopoDS_Face torus = part_of(surfaces_of_revolution()[3], 0, 2 * pi, 0, 2 * pi);
+  for (const internal::brep::Point& apex : {internal::brep::Point(0.5, -1, 2), {-3, 0, 4}}) {
+    expect_relative(integrals_of(sphere, apex).area, 4 * pi * r * r, 1e-7);
+    expect_relative(integrals_of(sphere, apex).volume, 4 * pi * r * r * r / 3, 1e-7);
+    expect_relative(integrals_of(torus, apex).area, 4 * pi * pi * major * minor, 1e-7);
+    expect_relative(integrals_of(torus, apex).volume, 2 * pi * pi * major * minor * minor, 1e-7);
+    expect_relative(integrals_of(TopoDS::Face(torus.Reversed()), apex).volume, -2 * pi * pi * major * minor * minor,
+                    1e-7);
+  }
+}
+
+TEST(FaceIntegrals, AreThoseOfTheSplineThatASurfaceIs) {
+  const internal::brep::Point apex(0.3, 0.1, -0.2);
+  for (const Handle(Geom_Surface) & surface : surfaces_of_revolution()) {
+    const Handle(Geom_Surface) part = new Geom_RectangularTrimmedSurface(surface, 0.3, 4, -0.5, 1.2);
+    const Handle(Geom_Surface) spline = GeomConvert::SurfaceToBSplineSurface(part);
+    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+    spline->Bounds(u0, u1, v0, v1);
+    const Face_integrals expected = integrals_of(part_of(surface, 0.3, 4, -0.5, 1.2), apex);
+    const Face_integrals found = integrals_of(part_of(spline, u0, u1, v0, v1), apex);
+    expect_relative(found.area, expected.area, 1e-6);
+    expect_relative(found.volume, expected.volume, 1e-6);
+  }
+}
+
+/// A border of many knots, which may pass through as many points of a circle.
+TopoDS_Wire spline_round(double x, double radius, std::size_t points) {
+  std::vector<internal::brep::Point> circle;
+  for (std::size_t i = 0; i <= points; ++i) {
+    const double angle = 2 * pi * double(i) / double(points);
+    circle.emplace_back(x + radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  const internal::brep::Edge_curve curve = internal::brep::spline_through(circle, 1);
+  return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(curve.curve).Edge());
+}
+
+TEST(FaceIntegrals, TakeBordersOfManyKnotsAsTheyAre) {
+  const gp_Pln plane(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+  BRepBuilderAPI_MakeFace disc(plane, spline_round(0, 1, 300));
+  expect_relative(integrals_of(disc, {0, 0, -3}).area, pi, 1e-7);
+  expect_relative(integrals_of(disc, {5, 7, -3}).volume, pi, 1e-7);
+  disc.Add(TopoDS::Wire(spline_round(0.2, 0.5, 300).Reversed()));
+  expect_relative(integrals_of(disc, {0, 0, 0}).area, 0.75 * pi, 1e-7);
+}
+
+TEST(BorderPolygon, HoldsWhatIsInTheFaceButNotInItsHoles) {
+  const gp_Pln plane(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+  BRepBuilderAPI_MakeFace disc(plane, spline_round(0, 1, 40));
+  disc.Add(TopoDS::Wire(spline_round(0.2, 0.5, 40).Reversed()));
+  const internal::brep::Border_polygon border(disc);
+  EXPECT_TRUE(border.contains({-0.9, 0}));
+  EXPECT_TRUE(border.contains({0.8, 0}));
+  EXPECT_TRUE(border.contains({0.2, 0.6}));
+  EXPECT_FALSE(border.contains({0.2, 0.4}));
+  EXPECT_FALSE(border.contains({-0.8, 0.8}));
+  EXPECT_FALSE(border.contains({1.1, 0}));
 }
 
 TEST(Boundary_representation, OfAMeshWithABorderIsAShell) {

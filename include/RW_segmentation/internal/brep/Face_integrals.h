@@ -96,9 +96,13 @@ class Face_integration {
   }
 
   void set_knots() {
+    constexpr int least_parts = 8;
     TColStd_Array1OfReal knots(1, surface_.NbUIntervals(GeomAbs_C3) + 1);
     surface_.UIntervals(knots, GeomAbs_C3);
-    knots_.assign(knots.begin(), knots.end());
+    const int spans = knots.Size() - 1, parts = (least_parts + spans - 1) / spans;
+    for (int i = knots.Lower(); i < knots.Upper(); ++i)
+      for (int k = 0; k < parts; ++k) knots_.push_back(knots(i) + (knots(i + 1) - knots(i)) * k / parts);
+    knots_.push_back(knots.Last());
     span_of_v_ = (surface_.LastVParameter() - surface_.FirstVParameter()) / surface_.NbVIntervals(GeomAbs_C3);
   }
 
@@ -203,7 +207,7 @@ class Face_integration {
   bool is_reversed_;
   Point apex_, origin_ = Point::Zero();
   GeomAdaptor_Surface surface_;
-  std::vector<double> knots_;                                   // of u, of a B-spline
+  std::vector<double> knots_;                                   // of u, of a B-spline, and some between them
   double span_of_v_ = std::numeric_limits<double>::infinity();  // likewise
 };
 
