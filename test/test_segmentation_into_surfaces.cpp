@@ -487,6 +487,56 @@ TEST(SegmentationIntoSurfaces, DoesNotDependOnPositionAndSize) {
   }
 }
 
+/// Solids in a row, and a plate so large that they are small beside it.
+solids::Solid assembly_of(const std::vector<solids::Solid>& parts) {
+  constexpr double size = 200;  // of the plate, in diagonals of the parts
+  solids::Solid assembly{"assembly", {{0, 0, -1}, {size, 0, -1}, {size, size, -1}}, {{0, 1, 2}}, {0}, {}};
+  assembly.surfaces.push_back(solids::plane({0, 0, -1}, solids::Point::UnitZ()));
+  double place = 0;
+  for (const solids::Solid& part : parts) {
+    const std::size_t points = assembly.points.size(), surfaces = assembly.surfaces.size();
+    for (const solids::Point& p : part.points)
+      assembly.points.push_back(p / part.diagonal() + Eigen::Vector3d(place, 0, 1));
+    for (auto face : part.faces) {
+      for (std::size_t& v : face) v += points;
+      assembly.faces.push_back(face);
+    }
+    for (const std::size_t label : part.label) assembly.label.push_back(label + surfaces);
+    assembly.surfaces.insert(assembly.surfaces.end(), part.surfaces.begin(), part.surfaces.end());
+    place += 2;
+  }
+  return assembly;
+}
+
+/// Of the faces of an assembly that are those of a part, the first one of which has a number.
+Labels of_part(const Labels& labels, std::size_t first, const solids::Solid& part) {
+  const auto begin = labels.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(part.faces.size())};
+}
+
+TEST(SegmentationIntoSurfaces, OfASmallPartOfAnAssemblyIsThatOfThePartAlone) {
+  const std::vector<solids::Solid> parts = solids::all(solids::even(0.15));
+  const Labels segments = segments_of(assembly_of(parts));
+  std::size_t first = 1;
+  for (const solids::Solid& part : parts) {
+    SCOPED_TRACE(part.name);
+    const Labels alone = segments_of(part), found = of_part(segments, first, part);
+    EXPECT_EQ(number_of(found), number_of(alone));
+    EXPECT_LE(rand_error(found, alone), 1e-3);
+    first += part.faces.size();
+  }
+}
+
+TEST(SegmentationIntoSurfaces, ReckonsWithTheNoiseOfAWholeAssembly) {
+  constexpr double deviation = 2e-3;
+  meshes::Shape spheres = meshes::sphere(4);
+  for (int i = 1; i < 4; ++i)
+    spheres = meshes::together(spheres, meshes::moved(meshes::sphere(4), Eigen::Vector3d(4. * i, 0, 0)));
+  const double diagonal = Eigen::Vector3d(14, 2, 2).norm();
+  const auto mesh = meshes::surface_mesh(meshes::with_noise(spheres, deviation));
+  EXPECT_NEAR(hierarchy_of_surfaces(mesh).report().noise, deviation / diagonal, 0.3 * deviation / diagonal);
+}
+
 // ---- Walls ----
 
 TEST(SegmentationIntoSurfaces, HasNoSegmentOnBothSidesOfAClosedLoopOfConstrainedEdges) {
@@ -678,6 +728,40 @@ TEST(SegmentSurfaces, AreThoseTheSolidWasMadeOf) {
         EXPECT_LT(surfaces[s].residual, 1e-6);
       }
     }
+}
+
+TEST(SegmentSurfaces, OfSmallPartsOfAnAssemblyAreThoseOfThePartsAlone) {
+  const std::vector<solids::Solid> parts = solids::all(solids::by_kernel());
+  const std::vector<Analytic_surface> surfaces = surfaces_of(assembly_of(parts));
+  std::size_t first = 1;
+  for (const solids::Solid& part : parts) {
+    SCOPED_TRACE(part.name);
+    const std::vector<Analytic_surface> alone = surfaces_of(part);
+    for (std::size_t s = 0; s < alone.size(); ++s) {
+      const Analytic_surface& found = surfaces[first + s];
+      EXPECT_EQ(found.type, alone[s].type);
+      EXPECT_NEAR(part.diagonal() * found.radius, alone[s].radius, 1e-6);
+      EXPECT_NEAR(part.diagonal() * found.tube_radius, alone[s].tube_radius, 1e-6);
+      EXPECT_LT(part.diagonal() * found.residual, 1e-6);
+    }
+    first += alone.size();
+  }
+}
+
+TEST(SegmentSurfaces, OfASegmentInSeveralSmallPartsIsTheOneOfAllOfThem) {
+  const meshes::Shape sphere = meshes::sphere(4);  // of radius 1
+  meshes::Shape caps{sphere.points, {}};
+  for (const auto& face : sphere.faces)
+    if (std::abs(sphere.points[face[0]].z()) > 0.8) caps.faces.push_back(face);
+  const auto mesh = meshes::surface_mesh(meshes::together(
+      meshes::moved(caps, {7, 8, 9}), meshes::moved(meshes::scaled(meshes::plane(2), 200), {0, 0, -1})));
+  std::vector<std::size_t> label(mesh.number_of_faces(), 1);
+  std::fill_n(label.begin(), caps.faces.size(), 0);
+  const auto ids = boost::make_iterator_property_map(label.begin(), get(boost::face_index, mesh));
+  const Analytic_surface found = segment_surfaces(mesh, ids, 2)[0];
+  EXPECT_EQ(found.type, Surface_type::sphere);
+  EXPECT_NEAR(found.radius, 1, 1e-9);
+  EXPECT_LT((found.point - Eigen::Vector3d(7, 8, 9)).norm(), 1e-9);
 }
 
 /// A plate with a drilled hole that has a chamfer: planes, cylinder and cone, whose vertices lie on circles.

@@ -4,7 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_SEGMENT_SURFACES_H
 
 #include <RW_segmentation/internal/compiled.h>
-#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/segment_surfaces.h>
 
@@ -17,10 +17,13 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_segments(
     const Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face, std::size_t number_of_segments,
     double noise) {
   const Dual_mesh shape = with_stored_normals(mesh);
-  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
+  const Tolerated_mesh tolerated(shape, noise, segment_of_face);
   std::vector<Analytic_surface> surfaces =
-      Surfaces_of_segments(shape, segment_of_face, number_of_segments, tolerance).surfaces();
-  for (Analytic_surface& surface : surfaces) surface = in_mesh_coordinates(surface, shape);
+      Surfaces_of_segments(tolerated.mesh(), segment_of_face, number_of_segments, tolerated.tolerance).surfaces();
+  std::vector<Dual_mesh::Index> vertex(number_of_segments, 0);
+  for (Dual_mesh::Index f = 0; f < shape.number_of_faces(); ++f) vertex[segment_of_face[f]] = shape.corners(f)[0];
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    surfaces[s] = out_of_box(tolerated.parts.in_whole(surfaces[s], vertex[s]), shape.unit(), shape.origin());
   return surfaces;
 }
 

@@ -9,6 +9,7 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
 #include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Region_fragments.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
@@ -52,8 +53,9 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segments_of_regions(const Dual_mesh&
 RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mesh& mesh, double noise,
                                                                   const Progress& progress, Segmentation_report& report,
                                                                   Stage_clock& clock) {
-  const Dual_mesh shape = with_stored_normals(mesh);
-  const Surface_tolerance tolerance = surface_tolerance(shape, noise);
+  const Tolerated_mesh tolerated(with_stored_normals(mesh), noise);
+  const Dual_mesh& shape = tolerated.mesh();
+  const Surface_tolerance& tolerance = tolerated.tolerance;
   clock.note("noise");
   const Analytic_regions regions = find_analytic_regions(shape, tolerance, progress.part(0, 0.8));
   clock.note("surfaces");
@@ -63,7 +65,7 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   report.noise = tolerance.noise;
   report.seeds = regions.surfaces.size();
   report.fragments = result.tree.number_of_fragments();
-  report.degenerate_faces = shape.number_of_degenerate_faces();
+  report.degenerate_faces = mesh.number_of_degenerate_faces();
   return result;
 }
 

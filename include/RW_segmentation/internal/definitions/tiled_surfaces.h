@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
+#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
@@ -410,7 +411,8 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_tiles(
   }
   std::vector<Analytic_surface> surfaces =
       internal::Surfaces_of_segments(samples.mesh, segment_of_face, number_of_segments, samples.tolerance).surfaces();
-  for (Analytic_surface& surface : surfaces) surface = internal::in_mesh_coordinates(surface, samples.mesh);
+  for (Analytic_surface& surface : surfaces)
+    surface = internal::out_of_box(surface, samples.mesh.unit(), samples.mesh.origin());
   return surfaces;
 }
 

@@ -36,7 +36,7 @@ constexpr bool may_be_independent(Noise_kind kind) {
 struct Surface_tolerance {
   using Index = Dual_mesh::Index;
 
-  /// Vertices of CAD models written with six digits or so are that exact. At half of it, overlap .9705 in place of .9744
+  /// Vertices of CAD models are that exact or nearly always much more so. At half of it, overlap .9705 in place of .9744
   /// (`_t`); at twice, .9756, but .9742 in place of .9766 (`_5k`).
   static constexpr double cad_exactness = 1e-5;
 

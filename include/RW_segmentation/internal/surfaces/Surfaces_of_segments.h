@@ -23,18 +23,6 @@
 
 namespace RW_segmentation::internal {
 
-/// From the unit box to the mesh's coordinates.
-inline Analytic_surface in_mesh_coordinates(Analytic_surface surface, const Dual_mesh& mesh) {
-  surface.point = mesh.unit() * surface.point + mesh.origin();
-  surface.radius *= mesh.unit();
-  surface.tube_radius *= mesh.unit();
-  surface.residual *= mesh.unit();
-  surface.errors.point *= mesh.unit();
-  surface.errors.radius *= mesh.unit();
-  surface.errors.tube_radius *= mesh.unit();
-  return surface;
-}
-
 /// The vertices of each segment in ascending order.
 inline std::vector<std::vector<Dual_mesh::Index>> vertices_of_segments(
     const Dual_mesh& mesh, const std::vector<std::vector<Dual_mesh::Index>>& faces) {

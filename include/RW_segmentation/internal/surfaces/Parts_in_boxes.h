@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_SURFACES_PARTS_IN_BOXES_H
+#define RW_SEGMENTATION_INTERNAL_SURFACES_PARTS_IN_BOXES_H
+
+#include <RW_segmentation/Analytic_surface.h>
+#include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/mesh/Face_geometry.h>
+#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+
+#include <Eigen/Geometry>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// A surface whose lengths are in a unit, seen from an origin, as it is where the unit is 1 and the origin 0.
+inline Analytic_surface out_of_box(Analytic_surface surface, double unit, const Eigen::Vector3d& origin) {
+  surface.point = unit * surface.point + origin;
+  surface.radius *= unit;
+  surface.tube_radius *= unit;
+  surface.residual *= unit;
+  surface.errors.point *= unit;
+  surface.errors.radius *= unit;
+  surface.errors.tube_radius *= unit;
+  return surface;
+}
+
+/// A mesh with its small parts in unit boxes of their own, so that each is segmented as if it was alone: what is exact
+/// enough for an assembly is not exact enough for its screws.
+///
+/// Parts are connected, by a vertex at the least, or by a segment.
+class Parts_in_boxes {
+ public:
+  using Index = Dual_mesh::Index;
+
+  /// The mesh as it is.
+  explicit Parts_in_boxes(const Dual_mesh& mesh) : mesh_(mesh) {}
+
+  /// \param segment_of_face empty if there are none
+  /// Complexity: linear, but for the inverse of Ackermann's function.
+  Parts_in_boxes(const Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face) : mesh_(mesh) {
+    std::vector<Index> part = parts_of_vertices(mesh, segment_of_face);
+    std::vector<Unit_box> boxes = boxes_of_parts(mesh, part);
+    if (std::all_of(boxes.begin(), boxes.end(), [](const Unit_box& box) { return box.unit == 1; })) return;
+    part_ = std::move(part);
+    boxes_ = std::move(boxes);
+    std::vector<Eigen::Vector3d> points = mesh.points();
+    for (Index v = 0; v < part_.size(); ++v) points[v] = box(v).scaled(points[v]);
+    mesh_ = mesh.with_points(std::move(points)).with_shape_normals_of(mesh);
+  }
+
+  bool has_small_parts() const { return !boxes_.empty(); }
+  const Dual_mesh& mesh() const { return mesh_; }
+
+  /// A surface of this mesh as one of the mesh that this was made of.
+  /// \param vertex of its faces
+  Analytic_surface in_whole(const Analytic_surface& surface, Index vertex) const {
+    return has_small_parts() ? out_of_box(surface, box(vertex).unit, box(vertex).origin) : surface;
+  }
+
+ private:
+  /// The lowest vertex of the part of each.
+  static std::vector<Index> parts_of_vertices(const Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face) {
+    constexpr Index none = std::numeric_limits<Index>::max();
+    boost::disjoint_sets_with_storage<> parts(mesh.number_of_vertices());
+    std::vector<Index> vertex_of_segment;
+    for (Index f = 0; f < mesh.number_of_faces(); ++f) {
+      const auto corners = mesh.corners(f);
+      for (const Index v : corners) parts.union_set(corners[0], v);
+      if (segment_of_face.empty()) continue;
+      const std::size_t segment = segment_of_face[f];
+      if (segment >= vertex_of_segment.size()) vertex_of_segment.resize(segment + 1, none);
+      if (vertex_of_segment[segment] == none) vertex_of_segment[segment] = corners[0];
+      parts.union_set(corners[0], vertex_of_segment[segment]);
+    }
+    std::vector<Index> lowest(mesh.number_of_vertices(), none), part(mesh.number_of_vertices());
+    for (Index v = 0; v < part.size(); ++v) {
+      Index& first = lowest[parts.find_set(v)];
+      first = std::min(first, v);
+      part[v] = first;
+    }
+    return part;
+  }
+
+  /// By the lowest vertex. The box of a large part is that of the whole.
+  static std::vector<Unit_box> boxes_of_parts(const Dual_mesh& mesh, const std::vector<Index>& part) {
+    constexpr double large = 0.5;        // the diagonal
+    constexpr double least_unit = 1e-2;  // coordinates in single precision are exact to 1e-7 of the whole
+    std::vector<Eigen::AlignedBox3d> around(part.size());
+    for (Index f = 0; f < mesh.number_of_faces(); ++f)
+      for (const Index v : mesh.corners(f)) around[part[v]].extend(mesh.point(v));
+    std::vector<Unit_box> boxes(part.size());
+    for (std::size_t v = 0; v < part.size(); ++v) {
+      if (around[v].isEmpty()) continue;
+      const double diagonal = around[v].diagonal().norm();
+      if (diagonal >= large) continue;
+      boxes[v].unit = std::max(diagonal, least_unit);
+      boxes[v].origin = around[v].center();
+    }
+    return boxes;
+  }
+
+  const Unit_box& box(Index vertex) const { return boxes_[part_[vertex]]; }
+
+  Dual_mesh mesh_;
+  std::vector<Index> part_;      // by vertex; empty if no part is small
+  std::vector<Unit_box> boxes_;  // by the lowest vertex of a part; likewise
+};
+
+/// A mesh with its tolerance: its parts in boxes of their own if they are clean. Noise is that of the whole.
+struct Tolerated_mesh {
+  Parts_in_boxes parts;
+  Surface_tolerance tolerance;  ///< of the mesh of the parts
+
+  /// \param noise see `surface_tolerance()`
+  /// \param segment_of_face each segment is kept in one box; empty if there are none
+  Tolerated_mesh(const Dual_mesh& whole, double noise, const std::vector<std::size_t>& segment_of_face = {})
+      : parts(whole, segment_of_face), tolerance(surface_tolerance(parts.mesh(), noise)) {
+    if (!parts.has_small_parts() || !tolerance.is_noisy()) return;
+    parts = Parts_in_boxes(whole);
+    tolerance = surface_tolerance(whole, noise);
+  }
+
+  const Dual_mesh& mesh() const { return parts.mesh(); }
+};
+
+}  // namespace RW_segmentation::internal
+
+#endif
