@@ -86,8 +86,8 @@ solids::Solid joined(solids::Solid a, const solids::Solid& b) {
   return a;
 }
 
-/// A box as small as a part of `solids::box()`, its centre elsewhere.
-solids::Solid small_box(double size, const solids::Point& centre) {
+/// `solids::box()` in another size, its centre elsewhere.
+solids::Solid box_of_size(double size, const solids::Point& centre) {
   solids::Solid box = solids::box(solids::by_kernel());
   for (solids::Point& p : box.points) p = size * p + centre;
   for (solids::Surface& s : box.surfaces) s.point = size * s.point + centre;
@@ -337,15 +337,29 @@ TEST(Boundary_representation, OfAMeshWithABorderIsAShell) {
 }
 
 TEST(Boundary_representation, HasASolidForEachComponentAndVoidsInThem) {
-  solids::Solid hole = small_box(0.3, {0.2, 0.1, 0});
+  solids::Solid hole = box_of_size(0.3, {0.2, 0.1, 0});
   turn_inside_out(hole);
-  const solids::Solid solid = joined(joined(hole, solids::box(solids::by_kernel())), small_box(0.5, {5, 0, 0}));
+  const solids::Solid solid = joined(joined(hole, solids::box(solids::by_kernel())), box_of_size(0.5, {5, 0, 0}));
   const Boundary_representation result = represented(solid);
   EXPECT_EQ(result.defect(), "");
   EXPECT_EQ(result.shape.ShapeType(), TopAbs_COMPOUND);
   EXPECT_EQ(result.report.solids, 2U);
   EXPECT_EQ(result.report.voids, 1U);
   expect_relative(result.report.volume, 6 - 6 * 0.027 + 6 * 0.125, 1e-12);
+}
+
+TEST(Boundary_representation, OfASmallSolidBesideALargeOneIsThatOfTheSolidAlone) {
+  for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
+    SCOPED_TRACE(solid.name);
+    const double size = 300 * solid.diagonal();
+    const Boundary_representation alone = represented(solid);
+    const Boundary_representation both = represented(joined(solid, box_of_size(size, {2 * size, 0, 0})));
+    EXPECT_EQ(both.defect(), "");
+    ASSERT_EQ(both.faces.size(), alone.faces.size() + 6);
+    double area = 0;
+    for (std::size_t i = 0; i < alone.faces.size(); ++i) area += both.faces[i].area;
+    expect_relative(area, alone.report.area, 1e-9);
+  }
 }
 
 TEST(Boundary_representation, TurnsASolidThatIsInsideOut) {

@@ -22,6 +22,7 @@
 #include <RW_segmentation/internal/brep/Shape_distances.h>
 #include <RW_segmentation/internal/brep/Shell_nesting.h>
 #include <RW_segmentation/internal/brep/kernel_errors.h>
+#include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
 #include <RW_segmentation/internal/threads.h>
@@ -38,6 +39,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -130,8 +132,9 @@ inline Analytic_surface scaled_surface(Analytic_surface surface, double scale) {
   return surface;
 }
 
-inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const brep::Shape_building& building,
-                                   const brep::Distance_to_mesh& distance, std::size_t patch_number) {
+inline Boundary_face boundary_face(const brep::Shape_component& component, const brep::Distance_to_mesh& distance,
+                                   std::size_t patch_number) {
+  const auto& [mesh, building] = component;
   const brep::Patch& patch = building.patches()[patch_number];
   Boundary_face result;
   result.face = building.faces()[patch_number];
@@ -150,32 +153,49 @@ inline Boundary_face boundary_face(const brep::Halfedge_triangles& mesh, const b
   return result;
 }
 
+/// The faces of each connected component, across walls.
+inline std::vector<std::vector<Dual_mesh::Index>> connected_faces(const Dual_mesh& mesh) {
+  const Components components(mesh.graph(), [](Dual_mesh::Index) { return true; });
+  std::vector<std::vector<Dual_mesh::Index>> faces(components.count);
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) faces[components.of[f]].push_back(f);
+  return faces;
+}
+
 /// \param segment_of_face numbers of surfaces
 inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
                                                        const std::vector<std::size_t>& segment_of_face,
                                                        std::vector<Analytic_surface> surfaces, double scale,
                                                        const Progress& progress) try {
   for (Analytic_surface& surface : surfaces) surface = scaled_surface(surface, scale);
-  const brep::Halfedge_triangles triangles(mesh, scale);
-  std::vector<std::size_t> segment_of_triangle;
-  for (std::size_t t = 0; t < triangles.number_of_triangles(); ++t)
-    segment_of_triangle.push_back(segment_of_face[triangles.face(t)]);
-  const brep::Shape_building building(triangles, surfaces, std::move(segment_of_triangle), progress.part(0, 0.8));
-  const brep::Shell_nesting nesting(triangles, building);
+  // Each component by itself: its lengths decide how exact it is to be, and only it is made again where a face is refused.
+  std::deque<brep::Shape_component> components;
+  std::size_t faces_done = 0;
+  for (const std::vector<Dual_mesh::Index>& faces : connected_faces(mesh)) {
+    constexpr double building = 0.8;  // of all
+    const auto share = [&](std::size_t done) { return building * double(done) / double(mesh.number_of_faces()); };
+    components.emplace_back(mesh, scale, faces, segment_of_face, surfaces,
+                            progress.part(share(faces_done), share(faces_done + faces.size())));
+    faces_done += faces.size();
+  }
+  const brep::Shell_nesting nesting(components);
 
   Boundary_representation result;
   result.shape = nesting.shape();
   Boundary_report& report = result.report;
   const brep::Distance_to_mesh distance(mesh, scale);
   std::size_t missing_faces = 0;
-  for (std::size_t i = 0; i < building.patches().size(); ++i) {
-    if (building.faces()[i].IsNull()) {
-      ++missing_faces;
-      continue;
+  for (const brep::Shape_component& component : components) {
+    for (std::size_t i = 0; i < component.building.patches().size(); ++i) {
+      if (component.building.faces()[i].IsNull()) {
+        ++missing_faces;
+        continue;
+      }
+      result.faces.push_back(boundary_face(component, distance, i));
+      report.area += result.faces.back().area;
+      report.mesh_area += result.faces.back().mesh_area;
     }
-    result.faces.push_back(boundary_face(triangles, building, distance, i));
-    report.area += result.faces.back().area;
-    report.mesh_area += result.faces.back().mesh_area;
+    report.edges += component.building.number_of_edges();
+    for (const auto& [reason, number] : component.building.refusals()) report.refusals[reason] += number;
   }
   progress(0.9);
   // Each face was checked by itself as it was made, but for triangles.
@@ -187,10 +207,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
   report.solids = nesting.solids();
   report.voids = nesting.voids();
   report.open_shells = nesting.open_shells();
-  report.edges = building.number_of_edges();
-  report.diagonal = triangles.diagonal();
-  report.refusals = building.refusals();
-  report.volume = nesting.volume(building.integrals());
+  report.diagonal = scale * mesh.unit();
+  report.volume = nesting.volume();
   report.mesh_volume = nesting.mesh_volume();
   progress(1);
   return result;
@@ -217,8 +235,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
 /// Each closed component becomes a solid; one that looks inward and lies in another becomes a void in that; components
 /// with a border become shells. Faces of more than three sides are taken as fans of triangles round their first corner.
 ///
-/// Complexity: the times of Open CASCADE for each face and edge, of which all are made again as long as one is refused; and
-/// a pass over all triangles for each cut of a patch.
+/// Complexity: the times of Open CASCADE for each face and edge, of which those of a component are put together again as long
+/// as one is refused; and a pass over the triangles of a component for each cut of a patch.
 ///
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`, or a `Dual_mesh_of` one

@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,32 +26,41 @@ using Point = Eigen::Vector3d;
 /// The number of what is not there: the other side of a mesh's border, for example.
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-/// The mesh as triangles and halfedges, in the coordinates of the shape. Halfedges 3 f, 3 f + 1 and 3 f + 2 go round
+/// A connected component of the mesh as triangles and halfedges, in the coordinates of the shape. Halfedges 3 f, 3 f + 1 and 3 f + 2 go round
 /// triangle f. A face of more than three sides is the fan of triangles round its first corner.
 class Halfedge_triangles {
  public:
   /// \param scale of the shape beside the mesh
+  /// \param faces of the mesh, those of a connected component
   /// \throws std::invalid_argument if two faces pass the same edge in the same direction
-  /// Complexity: O(n log n).
-  Halfedge_triangles(const Dual_mesh& mesh, double scale) {
-    points_.reserve(mesh.number_of_vertices());
-    for (const Point& p : mesh.points()) points_.push_back(scale * (mesh.unit() * p + mesh.origin()));
-    for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
+  /// Complexity: O(n log n) for n faces.
+  Halfedge_triangles(const Dual_mesh& mesh, double scale, const std::vector<Dual_mesh::Index>& faces) {
+    std::unordered_map<Dual_mesh::Index, std::size_t> number;
+    Eigen::AlignedBox3d box;
+    const auto number_of = [&](Dual_mesh::Index v) {
+      const auto [place, is_new] = number.try_emplace(v, points_.size());
+      if (is_new) {
+        points_.push_back(scale * (mesh.unit() * mesh.point(v) + mesh.origin()));
+        box.extend(points_.back());
+      }
+      return place->second;
+    };
+    for (const Dual_mesh::Index f : faces) {
       const auto corners = mesh.corners(f);
       for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-        corners_.push_back({corners[0], corners[k], corners[k + 1]});
+        corners_.push_back({number_of(corners[0]), number_of(corners[k]), number_of(corners[k + 1])});
         face_.push_back(f);
       }
     }
-    diagonal_ = scale * mesh.unit();
-    middle_ = scale * mesh.origin();
+    diagonal_ = box.diagonal().norm();
+    middle_ = box.center();
     pair_halfedges();
   }
 
   std::size_t number_of_triangles() const { return corners_.size(); }
   std::size_t number_of_halfedges() const { return 3 * corners_.size(); }
   const std::vector<Point>& points() const { return points_; }
-  /// Of the box around the mesh.
+  /// Of the box around the component.
   double diagonal() const { return diagonal_; }
   /// Likewise.
   const Point& middle() const { return middle_; }

@@ -56,7 +56,6 @@ class Shape_building {
   const std::vector<Face_integrals>& integrals() const { return integrals_; }
   /// By patch.
   const std::vector<double>& tolerances() const { return tolerances_; }
-  std::size_t patch_of(std::size_t triangle) const { return patch_of_[triangle]; }
   /// How many faces were refused, by the reasons.
   const std::map<std::string, std::size_t>& refusals() const { return refusals_; }
   std::size_t number_of_edges() const { return number_of_edges_; }
@@ -82,8 +81,6 @@ class Shape_building {
       integrals_.resize(patches_.size());
       tolerances_ = attempt.tolerances();
       number_of_edges_ = attempt.borders().chains().size();
-      patch_of_.resize(mesh_.number_of_triangles());
-      for (std::size_t t = 0; t < patch_of_.size(); ++t) patch_of_[t] = attempt.borders().patch_of(t);
       return true;
     }
     remake(next);
@@ -201,9 +198,30 @@ class Shape_building {
   std::vector<TopoDS_Face> faces_;
   std::vector<Face_integrals> integrals_;
   std::vector<double> tolerances_;
-  std::vector<std::size_t> patch_of_;  // by triangle
   std::map<std::string, std::size_t> refusals_;
   std::size_t number_of_edges_ = 0;
+};
+
+/// A connected component of a mesh, and the faces that it becomes.
+struct Shape_component {
+  Halfedge_triangles mesh;
+  Shape_building building;
+
+  /// \param segment_of_face of the whole mesh
+  Shape_component(const Dual_mesh& whole, double scale, const std::vector<Dual_mesh::Index>& faces,
+                  const std::vector<std::size_t>& segment_of_face, const std::vector<Analytic_surface>& surfaces,
+                  const Progress& progress)
+      : mesh(whole, scale, faces), building(mesh, surfaces, segments_of_triangles(segment_of_face), progress) {}
+  Shape_component(const Shape_component&) = delete;
+  Shape_component& operator=(const Shape_component&) = delete;
+
+ private:
+  std::vector<std::size_t> segments_of_triangles(const std::vector<std::size_t>& segment_of_face) const {
+    std::vector<std::size_t> segments;
+    segments.reserve(mesh.number_of_triangles());
+    for (std::size_t t = 0; t < mesh.number_of_triangles(); ++t) segments.push_back(segment_of_face[mesh.face(t)]);
+    return segments;
+  }
 };
 
 }  // namespace RW_segmentation::internal::brep

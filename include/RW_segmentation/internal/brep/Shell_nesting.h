@@ -20,8 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <utility>
+#include <deque>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
@@ -32,15 +31,12 @@ namespace RW_segmentation::internal::brep {
 /// border remain shells.
 class Shell_nesting {
  public:
-  Shell_nesting(const Halfedge_triangles& mesh, const Shape_building& building) : mesh_(mesh) {
-    std::vector<std::size_t> all(mesh.number_of_triangles());
-    std::iota(all.begin(), all.end(), std::size_t(0));
-    for (auto& triangles : mesh.parts(all, std::vector<char>(all.size(), 0)))
-      components_.push_back(component(std::move(triangles), building));
+  explicit Shell_nesting(const std::deque<Shape_component>& components) {
+    for (const Shape_component& component : components) shells_.emplace_back(component);
     BRep_Builder builder;
     std::vector<TopoDS_Shape> shapes;
-    for (std::size_t i = 0; i < components_.size(); ++i) {
-      Component& c = components_[i];
+    for (std::size_t i = 0; i < shells_.size(); ++i) {
+      Shell& c = shells_[i];
       if (!c.is_closed) {
         ++open_shells_;
         shapes.push_back(c.shell);
@@ -53,13 +49,13 @@ class Shell_nesting {
       builder.Add(c.solid, c.shell);
       ++solids_;
     }
-    for (const Component& c : components_) {
+    for (const Shell& c : shells_) {
       if (c.outside == none) continue;
-      builder.Add(components_[c.outside].solid, c.shell);
+      builder.Add(shells_[c.outside].solid, c.shell);
       ++voids_;
     }
     std::vector<TopoDS_Shape> solids;
-    for (const Component& c : components_)
+    for (const Shell& c : shells_)
       if (!c.solid.IsNull()) solids.push_back(c.solid);
     shapes.insert(shapes.end(), solids.begin(), solids.end());
     shape_ = joined(shapes);
@@ -72,75 +68,65 @@ class Shell_nesting {
   std::size_t open_shells() const { return open_shells_; }
   /// Of the mesh; voids are not counted in.
   double mesh_volume() const {
-    return sum_over_solids([](const Component& c) { return c.volume; });
+    return sum_over_solids([](const Shell& c) { return c.volume; });
   }
   /// Of the solids without their voids.
-  /// \param integrals by patch
-  double volume(const std::vector<Face_integrals>& integrals) const {
-    return sum_over_solids([&](const Component& c) {
+  double volume() const {
+    return sum_over_solids([](const Shell& c) {
       double sum = 0;
-      for (const std::size_t patch : c.patches) sum += integrals[patch].volume;
+      for (const Face_integrals& face : c.building.integrals()) sum += face.volume;
       return sum;
     });
   }
 
  private:
-  struct Component {
-    std::vector<std::size_t> triangles;
-    std::vector<std::size_t> patches;  // rising
+  struct Shell {
+    const Halfedge_triangles& mesh;
+    const Shape_building& building;
     bool is_closed = true;
     double volume = 0;           // signed; of closed ones
-    std::size_t outside = none;  // the component that this one is a void in
+    std::size_t outside = none;  // the shell that this one is a void in
     TopoDS_Shell shell;
     TopoDS_Solid solid;
-  };
 
-  Component component(std::vector<std::size_t> triangles, const Shape_building& building) const {
-    Component result;
-    BRep_Builder builder;
-    builder.MakeShell(result.shell);
-    const Point origin = mesh_.centre(triangles[0]);
-    std::vector<std::size_t>& patches = result.patches;
-    for (const std::size_t t : triangles) {
-      result.volume += (mesh_.centre(t) - origin).dot(mesh_.area_vector(t)) / 3;
-      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h)
-        if (mesh_.opposite(h) == none) result.is_closed = false;
-      patches.push_back(building.patch_of(t));
+    explicit Shell(const Shape_component& component) : mesh(component.mesh), building(component.building) {
+      for (std::size_t t = 0; t < mesh.number_of_triangles(); ++t)
+        volume += (mesh.centre(t) - mesh.middle()).dot(mesh.area_vector(t)) / 3;
+      for (std::size_t h = 0; h < mesh.number_of_halfedges(); ++h)
+        if (mesh.opposite(h) == none) is_closed = false;
+      BRep_Builder builder;
+      builder.MakeShell(shell);
+      for (const TopoDS_Face& face : building.faces())
+        if (!face.IsNull()) builder.Add(shell, face);
+      shell.Closed(BRep_Tool::IsClosed(shell));
     }
-    std::sort(patches.begin(), patches.end());
-    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-    for (const std::size_t patch : patches)
-      if (!building.faces()[patch].IsNull()) builder.Add(result.shell, building.faces()[patch]);
-    result.shell.Closed(BRep_Tool::IsClosed(result.shell));
-    result.triangles = std::move(triangles);
-    return result;
-  }
+  };
 
   template <class Volume>
   double sum_over_solids(const Volume& volume) const {
     double sum = 0;
-    for (const Component& c : components_)
+    for (const Shell& c : shells_)
       if (c.is_closed) sum += c.outside == none ? std::abs(volume(c)) : volume(c);
     return sum;
   }
 
   std::size_t smallest_around(std::size_t inner) const {
-    const Point p = mesh_.point(mesh_.corners(components_[inner].triangles[0])[0]);
+    const Point& p = shells_[inner].mesh.point(0);
     std::size_t smallest = none;
-    for (std::size_t i = 0; i < components_.size(); ++i) {
-      const Component& c = components_[i];
-      if (!c.is_closed || c.volume <= -components_[inner].volume) continue;
-      if ((smallest == none || c.volume < components_[smallest].volume) && winds_round(c, p)) smallest = i;
+    for (std::size_t i = 0; i < shells_.size(); ++i) {
+      const Shell& c = shells_[i];
+      if (!c.is_closed || c.volume <= -shells_[inner].volume) continue;
+      if ((smallest == none || c.volume < shells_[smallest].volume) && winds_round(c.mesh, p)) smallest = i;
     }
     return smallest;
   }
 
   /// Whether the triangles of a closed component fill the sphere round a point (van Oosterom and Strackee 1983).
-  bool winds_round(const Component& component, const Point& p) const {
+  static bool winds_round(const Halfedge_triangles& mesh, const Point& p) {
     double half_angles = 0;
-    for (const std::size_t t : component.triangles) {
-      const auto [i, j, k] = mesh_.corners(t);
-      const Point a = mesh_.point(i) - p, b = mesh_.point(j) - p, c = mesh_.point(k) - p;
+    for (std::size_t t = 0; t < mesh.number_of_triangles(); ++t) {
+      const auto [i, j, k] = mesh.corners(t);
+      const Point a = mesh.point(i) - p, b = mesh.point(j) - p, c = mesh.point(k) - p;
       const double denominator =
           a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() + b.dot(c) * a.norm() + c.dot(a) * b.norm();
       half_angles += std::atan2(a.dot(b.cross(c)), denominator);
@@ -158,8 +144,7 @@ class Shell_nesting {
     return compound;
   }
 
-  const Halfedge_triangles& mesh_;
-  std::vector<Component> components_;
+  std::vector<Shell> shells_;
   std::size_t solids_ = 0, voids_ = 0, open_shells_ = 0;
   TopoDS_Shape shape_;
 };
