@@ -7,6 +7,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 #include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/boundary/Border_crossing.h>
 #include <RW_segmentation/internal/boundary/Curve_joint.h>
 #include <RW_segmentation/internal/boundary/Surface_curve.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
@@ -56,10 +57,11 @@ namespace internal {
 void require_boundary_smoothing_numbers(const Boundary_smoothing& smoothing);
 
 /// The boundaries in the unit box.
+/// \param crossings where boundaries end in place of vertices on the border
 std::vector<Surface_curve> smoothed_curves(const Dual_mesh& mesh, const Walled_surface& surface,
                                            const std::vector<std::size_t>& segment_of_face,
                                            const Boundary_smoothing& smoothing, const Curve_joining& joining,
-                                           const Progress& progress);
+                                           const std::vector<Border_crossing>& crossings, const Progress& progress);
 
 /// Tells where a halfedge begins, in the mesh's coordinates.
 template <class FaceListGraph, class NamedParameters>
@@ -95,10 +97,31 @@ std::vector<Boundary_curve<Mesh, Point>> boundary_curves(const std::vector<Surfa
     for (const Curve_node& node : curve.nodes) {
       const auto h = node.is_vertex() ? Triangle_surface::previous(surface.leaving(node.vertex)) : node.edge;
       const double t = node.is_vertex() ? 1 : node.position;
-      const Eigen::Vector3d p = (1 - t) * source_point(h) + t * source_point(Triangle_surface::next(h));
+      const Eigen::Vector3d p = point_between(source_point(h), source_point(Triangle_surface::next(h)), t);
       result.back().points.push_back({descriptor_of_halfedge(h, mesh), t, Point(p.x(), p.y(), p.z())});
     }
   }
+  return result;
+}
+
+/// Smooths the boundaries of a mesh that has been read.
+/// \param mesh what `dual` was read from, or `dual` itself
+template <class FaceListGraph, class SegmentIdMap, class NamedParameters>
+auto smoothed_boundaries(const FaceListGraph& mesh, const Dual_mesh_of<typename Mesh_type<FaceListGraph>::type>& dual,
+                         const SegmentIdMap& segment_ids, const Boundary_smoothing& smoothing,
+                         const Curve_joining& joining, const std::vector<Border_crossing>& crossings,
+                         const NamedParameters& np) {
+  using Mesh = typename Mesh_type<FaceListGraph>::type;
+  using Vertex_points = typename CGAL::GetVertexPointMap<Mesh, NamedParameters>::const_type;
+  using Point = typename boost::property_traits<Vertex_points>::value_type;
+  const Progress progress = progress_of(np);
+  require_triangles(dual);
+  const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
+  const Walled_surface surface(dual);
+  const std::vector<Surface_curve> curves =
+      smoothed_curves(dual, surface, segment_of_face, smoothing, joining, crossings, progress);
+  auto result = boundary_curves<Point>(curves, dual, surface.whole(), source_points(mesh, dual, np));
+  progress(1);
   return result;
 }
 
@@ -164,20 +187,8 @@ auto smooth_boundaries(const FaceListGraph& mesh, const SegmentIdMap& segment_id
                 "joining must be a Traced_joining or a Geodesic_joining.");
   internal::require_boundary_smoothing_numbers(smoothing);
   return internal::with_threads<ConcurrencyTag>([&] {
-    const Progress progress = internal::progress_of(np);
     const auto& dual = internal::dual_mesh(mesh, np);
-    internal::require_triangles(dual);
-    const auto segment_of_face = dual.read_faces(segment_ids, [](auto id) { return static_cast<std::size_t>(id); });
-    const internal::Walled_surface surface(dual);
-    const std::vector<internal::Surface_curve> curves =
-        internal::smoothed_curves(dual, surface, segment_of_face, smoothing, joining, progress);
-    using Mesh = typename internal::Mesh_type<FaceListGraph>::type;
-    using Vertex_points = typename CGAL::GetVertexPointMap<Mesh, NamedParameters>::const_type;
-    using Point = typename boost::property_traits<Vertex_points>::value_type;
-    const auto source_point = internal::source_points(mesh, dual, np);
-    auto result = internal::boundary_curves<Point>(curves, dual, surface.whole(), source_point);
-    progress(1);
-    return result;
+    return internal::smoothed_boundaries(mesh, dual, segment_ids, smoothing, joining, {}, np);
   });
 }
 

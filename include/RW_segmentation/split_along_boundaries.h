@@ -6,6 +6,7 @@
 #include <RW_segmentation/Boundary_curve.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/Argument_error.h>
+#include <RW_segmentation/internal/boundary/Surface_curve.h>
 #include <RW_segmentation/internal/boundary/Surface_refinement.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/named_parameters.h>
@@ -17,6 +18,8 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
+
+#include <Eigen/Core>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -204,10 +207,13 @@ class Refinement_step {
       const Point a = get(points_, vertex_of[surface_.source(cuts[k].edge)]);
       const Point b = get(points_, vertex_of[surface_.target(cuts[k].edge)]);
       const double t = cuts[k].position;
-      const auto between = [&](int i) { return (1 - t) * CGAL::to_double(a[i]) + t * CGAL::to_double(b[i]); };
+      const auto in_doubles = [](const Point& p) {
+        return Eigen::Vector3d(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
+      };
+      const Eigen::Vector3d p = point_between(in_doubles(a), in_doubles(b), t);
       visitor_.before_edge_split(h, (t - begin) / (1 - begin), mesh_);
       const halfedge_descriptor added = CGAL::Euler::split_edge(h, mesh_);
-      put(points_, target(added, mesh_), Point(between(0), between(1), between(2)));
+      put(points_, target(added, mesh_), Point(p.x(), p.y(), p.z()));
       vertex_of.push_back(target(added, mesh_));
       visitor_.edge_split(added, mesh_);
     }

@@ -3,31 +3,79 @@
 #ifndef RW_SEGMENTATION_INTERNAL_BOUNDARY_BOUNDARY_CHAIN_H
 #define RW_SEGMENTATION_INTERNAL_BOUNDARY_BOUNDARY_CHAIN_H
 
+#include <RW_segmentation/internal/boundary/Border_crossing.h>
+#include <RW_segmentation/internal/boundary/Border_way.h>
 #include <RW_segmentation/internal/boundary/Surface_curve.h>
 #include <RW_segmentation/internal/boundary/Triangle_surface.h>
 #include <RW_segmentation/internal/boundary/Walled_surface.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace RW_segmentation::internal {
+
+/// An end of a chain at a crossing.
+struct Chain_end {
+  Border_crossing crossing;
+  Border_way way;  ///< to its side, if it has one
+
+  bool is_on_side() const { return crossing.side != Triangle_surface::none; }
+  Curve_node node(std::size_t origin) const {
+    return {Triangle_surface::none, crossing.side, crossing.position, origin};
+  }
+  Curve_point point(std::size_t origin) const {
+    const Triangle_surface::Index corner = crossing.side % 3;
+    Curve_point point{Triangle_surface::none, {Triangle_surface::face(crossing.side), {0, 0, 0}}, origin, true};
+    point.place.weight[corner] = 1 - crossing.position;
+    point.place.weight[(corner + 1) % 3] = crossing.position;
+    return point;
+  }
+};
 
 /// A boundary between two segments as it runs along the edges of the mesh, with one segment on its left and one on its
 /// right all the way.
 struct Boundary_chain {
   std::vector<Triangle_surface::Index> halfedges;  ///< each begins where the one before ends; faces on the left
   bool is_closed = false;
-  bool is_wall = false;                   ///< all along; otherwise walls are met in the ends only
-  std::array<std::size_t, 2> segments{};  ///< on the left and on the right
+  bool is_wall = false;                            ///< all along; otherwise walls are met in the ends only
+  std::array<std::size_t, 2> segments{};           ///< on the left and on the right
+  std::array<std::optional<Chain_end>, 2> ends{};  ///< the first and the last one, where they are at crossings
+
+  bool ends_on_side(std::size_t end) const { return ends[end] && ends[end]->is_on_side(); }
 };
 
-/// The vertices of a chain; the first one of a closed chain follows the last.
-inline std::vector<Curve_node> nodes_of(const Triangle_surface& surface, const Boundary_chain& chain) {
+/// The nodes from the end of a chain to the crossing on a side, close to the border.
+/// \param last vertex of the chain within the mesh
+inline std::vector<Curve_node> nodes_to_crossing(const Triangle_surface& surface, const Chain_end& end,
+                                                 Triangle_surface::Index last, std::size_t origin) {
+  constexpr double close = 1. / 3;  // of a spoke: less than half, so that ways at both ends of it pass each other
   std::vector<Curve_node> nodes;
-  for (const auto h : chain.halfedges) nodes.push_back({surface.source(h), Triangle_surface::none, 0, nodes.size()});
-  if (!chain.is_closed)
-    nodes.push_back({surface.target(chain.halfedges.back()), Triangle_surface::none, 0, nodes.size() - 1});
+  for (std::size_t k = end.way.spokes_to(last, surface); k < end.way.spokes.size(); ++k)
+    nodes.push_back(crossing(surface, end.way.spokes[k], close, origin));
+  nodes.push_back(end.node(origin));
+  return nodes;
+}
+
+/// A chain as a curve, not smoothed: its vertices, and the ways to the crossings on sides at its ends. The first node of a
+/// closed chain follows the last.
+inline std::vector<Curve_node> nodes_of(const Triangle_surface& surface, const Boundary_chain& chain) {
+  const std::size_t last = chain.halfedges.size() - 1;
+  std::vector<Curve_node> nodes;
+  if (chain.ends_on_side(0)) {
+    nodes = nodes_to_crossing(surface, *chain.ends[0], surface.target(chain.halfedges[0]), 0);
+    std::reverse(nodes.begin(), nodes.end());
+  }
+  for (std::size_t i = chain.ends_on_side(0) ? 1 : 0; i <= last; ++i)
+    nodes.push_back({surface.source(chain.halfedges[i]), Triangle_surface::none, 0, i});
+  if (chain.ends_on_side(1)) {
+    const auto way = nodes_to_crossing(surface, *chain.ends[1], surface.source(chain.halfedges[last]), last);
+    nodes.insert(nodes.end(), way.begin(), way.end());
+  } else if (!chain.is_closed) {
+    nodes.push_back({surface.target(chain.halfedges[last]), Triangle_surface::none, 0, last});
+  }
   return nodes;
 }
 

@@ -4,6 +4,8 @@
 #define RW_SEGMENTATION_INTERNAL_BOUNDARY_BOUNDARY_SMOOTHER_H
 
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/boundary/Border_crossing.h>
+#include <RW_segmentation/internal/boundary/Border_way.h>
 #include <RW_segmentation/internal/boundary/Boundary_chain.h>
 #include <RW_segmentation/internal/boundary/Curve_smoothing.h>
 #include <RW_segmentation/internal/boundary/Curve_tracing.h>
@@ -16,7 +18,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -30,20 +34,24 @@ class Boundary_smoother {
   using Index = Triangle_surface::Index;
 
   /// \param lifted from `surface.open()`
+  /// \param crossings of `surface.whole()`, where it is a tile
   Boundary_smoother(const Walled_surface& surface, const Lifted_surface& lifted,
                     const std::vector<std::size_t>& segment_of_face, const Curve_smoothing_numbers& numbers,
-                    const Curve_joining& joining)
+                    const Curve_joining& joining, const std::vector<Border_crossing>& crossings)
       : walled_(surface),
         surface_(surface.open()),
         lifted_(lifted),
         segment_of_face_(segment_of_face),
         numbers_(numbers),
-        trace_(surface.open(), snap, joining) {}
+        trace_(surface.open(), snap, joining) {
+    for (const Border_crossing& crossing : crossings) crossing_at_.emplace(crossing.vertex, crossing);
+  }
 
   /// \param is_sharp for each halfedge, whether its edge is sharp
   /// \returns curves on `surface.whole()`
   std::vector<Surface_curve> operator()(const std::vector<char>& is_sharp, const Progress& progress) const {
-    const std::vector<Boundary_chain> chains = Boundary_chains(walled_, segment_of_face_)();
+    std::vector<Boundary_chain> chains = Boundary_chains(walled_, segment_of_face_)();
+    for (Boundary_chain& chain : chains) find_ends(chain);
     std::vector<Drawing> drawings;
     std::vector<Surface_curve> curves;
     for (const Boundary_chain& chain : chains) {
@@ -74,6 +82,21 @@ class Boundary_smoother {
     std::size_t attempts;             ///< that failed
   };
 
+  /// Finds the crossings at which a chain is to end.
+  void find_ends(Boundary_chain& chain) const {
+    if (chain.is_closed || chain.is_wall) return;
+    const std::array into = {surface_.twin(chain.halfedges.front()), chain.halfedges.back()};  // both ends
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto found = crossing_at_.find(walled_.whole().target(into[end]));
+      if (found == crossing_at_.end()) continue;
+      const Border_crossing& crossing = found->second;
+      if (crossing.side == Triangle_surface::none)
+        chain.ends[end] = {crossing, {}};
+      else if (auto way = border_way(surface_, into[end], crossing.side))
+        chain.ends[end] = {crossing, std::move(*way)};
+    }
+  }
+
   /// The edges of a chain that lie on a crease: sharp ones, several in a row that do not turn much. A boundary that
   /// zigzags over the ribs of a coarse mesh meets sharp edges, too, but turns from one to the next.
   std::vector<char> creases(const Boundary_chain& chain, const std::vector<char>& is_sharp) const {
@@ -100,6 +123,8 @@ class Boundary_smoother {
       for (std::size_t i = k; i < k + run; ++i) result[(first + i) % size] = is_crease;
       k += run;
     }
+    if (chain.ends_on_side(0)) result.front() = false;
+    if (chain.ends_on_side(1)) result.back() = false;
     return result;
   }
 
@@ -144,7 +169,7 @@ class Boundary_smoother {
   bool can_be_smoothed(const Drawing& drawing) const {
     const Boundary_chain& chain = drawing.chain;
     const bool is_free =
-        std::any_of(drawing.points.begin(), drawing.points.end(), [](const auto& point) { return !point.is_fixed(); });
+        std::any_of(drawing.points.begin(), drawing.points.end(), [](const auto& point) { return point.is_free(); });
     return numbers_.corridor > 0 && is_free && !chain.is_wall && chain.halfedges.size() >= (chain.is_closed ? 5 : 2) &&
            !is_ring(chain);
   }
@@ -157,7 +182,7 @@ class Boundary_smoother {
     Curve_smoothing_numbers numbers = numbers_;
     numbers.corridor *= margin / static_cast<double>(std::size_t(1) << (2 * drawing.attempts));
     const Curve_smoothing smooth(surface_, lifted_, numbers);
-    auto curve = trace_(smooth(drawing.chain, drawing.points), drawing.chain.is_closed);
+    auto curve = trace_(smooth(drawing.chain, drawing.points), drawing.chain.is_closed, ends_of(drawing.chain));
     if (!curve || curve->nodes.size() < 3) return std::nullopt;
     for (Curve_node& node : curve->nodes) {
       if (distance_to_chain(surface_, drawing.chain, node.origin, point_of(surface_, node)) > numbers_.corridor)
@@ -169,12 +194,20 @@ class Boundary_smoother {
     return curve;
   }
 
+  static Curve_tracing::Ends ends_of(const Boundary_chain& chain) {
+    Curve_tracing::Ends ends;
+    if (chain.ends_on_side(0)) ends[0] = chain.ends[0]->node(0);
+    if (chain.ends_on_side(1)) ends[1] = chain.ends[1]->node(chain.halfedges.size() - 1);
+    return ends;
+  }
+
   const Walled_surface& walled_;
   const Triangle_surface& surface_;  // cut open along the walls
   const Lifted_surface& lifted_;
   const std::vector<std::size_t>& segment_of_face_;
   Curve_smoothing_numbers numbers_;
   Curve_tracing trace_;
+  std::map<Index, Border_crossing> crossing_at_;  // by vertex
 };
 
 }  // namespace RW_segmentation::internal

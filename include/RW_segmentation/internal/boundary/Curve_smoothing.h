@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -29,6 +30,7 @@ struct Curve_smoothing_numbers {
 
 /// The points that stand for a boundary before it is smoothed: the middles of its edges, and all vertices of edges on a
 /// crease, where they are fixed, as are the ends.
+/// \param is_on_crease by edge; none at an end on a side of the border
 inline std::vector<Curve_point> curve_points(const Triangle_surface& surface, const Boundary_chain& chain,
                                              const std::vector<char>& is_on_crease) {
   std::vector<Curve_point> points;
@@ -36,39 +38,47 @@ inline std::vector<Curve_point> curve_points(const Triangle_surface& surface, co
     if (points.empty() || points.back().vertex != vertex) points.push_back({vertex, {}, origin});
   };
   const std::size_t last = chain.halfedges.size() - 1;
+  if (chain.ends_on_side(0)) points.push_back(chain.ends[0]->point(0));
   for (std::size_t i = 0; i <= last; ++i) {
     const auto h = chain.halfedges[i];
-    if (is_on_crease[i] || (i == 0 && !chain.is_closed)) fix(surface.source(h), i);
+    if (is_on_crease[i] || (i == 0 && !chain.is_closed && !chain.ends_on_side(0))) fix(surface.source(h), i);
     if (!is_on_crease[i]) {
       Surface_place middle{Triangle_surface::face(h), {0.5, 0.5, 0.5}};
       middle.weight[(h + 2) % 3] = 0;  // halfedge 3 f + k lies opposite corner k + 2
       points.push_back({Triangle_surface::none, middle, i});
     }
-    if (is_on_crease[i] || (i == last && !chain.is_closed)) fix(surface.target(h), i);
+    if (is_on_crease[i] || (i == last && !chain.is_closed && !chain.ends_on_side(1))) fix(surface.target(h), i);
   }
+  if (chain.ends_on_side(1)) points.push_back(chain.ends[1]->point(last));
   if (chain.is_closed && points.size() > 1 && points.front().is_fixed() &&
       points.front().vertex == points.back().vertex)
     points.pop_back();
   return points;
 }
 
-/// The distance of a point to that part of a chain that is close to one of its edges, the origin.
+/// The distance of a point to that part of a chain that is close to one of its edges, the origin. Where the chain ends on a
+/// side of the border, the sides on the way there are part of it.
 inline double distance_to_chain(const Triangle_surface& surface, const Boundary_chain& chain, std::size_t origin,
                                 const Eigen::Vector3d& p) {
   constexpr std::ptrdiff_t reach = 8;
   const auto edges = static_cast<std::ptrdiff_t>(chain.halfedges.size());
   double least = std::numeric_limits<double>::infinity();
-  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
-    std::ptrdiff_t i = static_cast<std::ptrdiff_t>(origin) + k;
-    if (chain.is_closed) i = (i + reach * edges) % edges;
-    if (i < 0 || i >= edges) continue;
-    const auto h = chain.halfedges[static_cast<std::size_t>(i)];
+  const auto measure = [&](Triangle_surface::Index h) {
     const Eigen::Vector3d& a = surface.point(surface.source(h));
     const Eigen::Vector3d u = surface.point(surface.target(h)) - a;
     const double uu = u.squaredNorm();
     const double t = uu > 0 ? std::clamp((p - a).dot(u) / uu, 0., 1.) : 0;
     least = std::min(least, (a + t * u - p).squaredNorm());
+  };
+  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+    std::ptrdiff_t i = static_cast<std::ptrdiff_t>(origin) + k;
+    if (chain.is_closed) i = (i + reach * edges) % edges;
+    if (i >= 0 && i < edges) measure(chain.halfedges[static_cast<std::size_t>(i)]);
   }
+  const std::array distances = {origin, chain.halfedges.size() - 1 - origin};  // from the ends, in edges
+  for (std::size_t end = 0; end < 2; ++end)
+    if (chain.ends_on_side(end) && distances[end] <= static_cast<std::size_t>(reach))
+      for (const auto side : chain.ends[end]->way.sides) measure(side);
   return std::sqrt(least);
 }
 
@@ -78,23 +88,30 @@ class Curve_smoothing {
   Curve_smoothing(const Triangle_surface& surface, const Lifted_surface& lifted, const Curve_smoothing_numbers& numbers)
       : surface_(surface), lifted_(lifted), numbers_(numbers) {}
 
-  /// Points of the chain, as `curve_points()` makes them, after all steps.
+  /// Points of the chain, as `curve_points()` makes them, after all steps. Beyond a crossing at its end there is one more, which
+  /// stays where it is and tells in which direction the boundary goes on.
   std::vector<Curve_point> operator()(const Boundary_chain& chain, std::vector<Curve_point> points) const {
-    std::vector<char> is_fixed;
-    for (const Curve_point& point : points) is_fixed.push_back(point.is_fixed());
+    const Eigen::Index before = chain.ends[0] ? 1 : 0, behind = chain.ends[1] ? 1 : 0;
+    const auto size = static_cast<Eigen::Index>(points.size());
+    std::vector<char> is_fixed(static_cast<std::size_t>(before), true);
+    for (const Curve_point& point : points) is_fixed.push_back(!point.is_free());
+    if (behind > 0) is_fixed.push_back(true);
     const Spline_in_tension spline(is_fixed, chain.is_closed, numbers_.stiffness, numbers_.tension);
 
-    const auto size = static_cast<Eigen::Index>(points.size());
-    Spline_in_tension::Points position(size, 6);
-    for (Eigen::Index i = 0; i < size; ++i) position.row(i) = at(points[static_cast<std::size_t>(i)]).transpose();
+    Spline_in_tension::Points position(before + size + behind, 6);
+    for (Eigen::Index i = 0; i < size; ++i)
+      position.row(before + i) = at(points[static_cast<std::size_t>(i)]).transpose();
+    if (before > 0) position.row(0) = beyond(points.front(), *chain.ends[0]).transpose();
+    if (behind > 0) position.row(before + size) = beyond(points.back(), *chain.ends[1]).transpose();
     for (std::size_t step = 0; step < numbers_.steps; ++step) {
       Spline_in_tension::Points target = position;
       spline.step(target);
       for (Eigen::Index i = 0; i < size; ++i) {
         Curve_point& point = points[static_cast<std::size_t>(i)];
-        if (point.is_fixed()) continue;
-        move(chain, point, position.row(i).transpose(), target.row(i).transpose());
-        position.row(i) = at(point).transpose();
+        if (!point.is_free()) continue;
+        const Eigen::Index row = before + i;
+        move(chain, point, position.row(row).transpose(), target.row(row).transpose());
+        position.row(row) = at(point).transpose();
       }
     }
     for (Curve_point& point : points)  // off the edges, so that the way on is clear
@@ -108,6 +125,13 @@ class Curve_smoothing {
 
   Point at(const Curve_point& point) const {
     return point.is_fixed() ? lifted_.at(point.vertex) : lifted_.at(point.place);
+  }
+
+  /// Beyond the border the normal is taken to be what it is there.
+  Point beyond(const Curve_point& last, const Chain_end& end) const {
+    Point point = at(last);
+    point.head<3>() += end.crossing.beyond;
+    return point;
   }
 
   /// Moves a point along the surface toward the target, no further than the corridor allows.

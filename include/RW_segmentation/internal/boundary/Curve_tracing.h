@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -33,21 +34,30 @@ class Curve_tracing {
   Curve_tracing(const Triangle_surface& surface, double snap, Curve_joining joining)
       : surface_(surface), snap_(snap), joining_(std::move(joining)) {}
 
+  /// The nodes on the border that a curve begins and ends with, where it does so.
+  using Ends = std::array<std::optional<Curve_node>, 2>;
+
   /// A curve through points, without its segments; none if they cannot be joined.
-  std::optional<Surface_curve> operator()(const std::vector<Curve_point>& points, bool is_closed) const {
+  std::optional<Surface_curve> operator()(const std::vector<Curve_point>& points, bool is_closed,
+                                          const Ends& ends = {}) const {
     Surface_curve curve;
     curve.is_closed = is_closed;
     std::vector<Curve_node>& nodes = curve.nodes;
+    if (ends[0]) nodes.push_back(*ends[0]);
     const std::size_t joints = is_closed ? points.size() : points.size() - 1;
     for (std::size_t i = 0; i < joints; ++i) {
       const Curve_point &from = points[i], &to = points[(i + 1) % points.size()];
       if (from.is_fixed()) append(nodes, {from.vertex, Triangle_surface::none, 0, from.origin});
       if (!join(from, to, curve)) return std::nullopt;
     }
-    if (!is_closed) append(nodes, {points.back().vertex, Triangle_surface::none, 0, points.back().origin});
+    if (!is_closed)
+      append(nodes,
+             ends[1].value_or(Curve_node{points.back().vertex, Triangle_surface::none, 0, points.back().origin}));
     if (is_closed) close(nodes);
     straighten(nodes, is_closed);
     nodes = snapped(nodes, is_closed);
+    for (const std::size_t end : {0U, 1U})  // near the border it may have run into a vertex, past its end
+      if (ends[end] && !is_crossing(end == 0 ? nodes.front() : nodes.back(), *ends[end])) return std::nullopt;
     return curve;
   }
 
@@ -69,6 +79,10 @@ class Curve_tracing {
       else
         return;
     }
+  }
+
+  static bool is_crossing(const Curve_node& node, const Curve_node& crossing) {
+    return !node.is_vertex() && node.edge == crossing.edge && node.position == crossing.position;
   }
 
   /// Lets the end of a closed curve meet its beginning.

@@ -24,10 +24,12 @@ struct Surface_place {
 /// A point of a boundary on its way: at a vertex, where it stays, or anywhere.
 struct Curve_point {
   Triangle_surface::Index vertex = Triangle_surface::none;
-  Surface_place place;     ///< of a point that is free to move
+  Surface_place place;     ///< of a point that is at no vertex
   std::size_t origin = 0;  ///< the edge of the chain that it comes from
+  bool is_held = false;    ///< whether it stays at its place: the end of a boundary, on a side of the border
 
   bool is_fixed() const { return vertex != Triangle_surface::none; }
+  bool is_free() const { return !is_fixed() && !is_held; }
 };
 
 /// Where a curve passes: through a vertex or across an edge. Consecutive nodes of a curve lie in one face.
@@ -42,6 +44,13 @@ struct Curve_node {
 
   bool is_vertex() const { return vertex != Triangle_surface::none; }
 };
+
+/// The point at `t` of the way from `a` to `b`. It is the same to the last bit from either end, where 1 - t has no more digits
+/// than t: so tiles cut the side that they share in one point.
+inline Eigen::Vector3d point_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t) {
+  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end())) return t * b + (1 - t) * a;
+  return (1 - t) * a + t * b;
+}
 
 /// Where a curve crosses a halfedge, kept off its ends.
 inline Curve_node crossing(const Triangle_surface& surface, Triangle_surface::Index h, double position,

@@ -51,11 +51,12 @@ RW_SEGMENTATION_INLINE std::vector<Surface_curve> smoothed_curves(const Dual_mes
                                                                   const std::vector<std::size_t>& segment_of_face,
                                                                   const Boundary_smoothing& smoothing,
                                                                   const Curve_joining& joining,
+                                                                  const std::vector<Border_crossing>& crossings,
                                                                   const Progress& progress) {
   const std::vector<Eigen::Vector3d> normals = smooth_normals(mesh, smoothing.normals, progress.part(0, 0.5));
   const Lifted_surface lifted(surface.open(), normals, smoothing.feature_weight * std::sqrt(mesh.total_area()));
   const Curve_smoothing_numbers numbers = curve_smoothing_numbers(smoothing, surface.whole().mean_edge_length());
-  const Boundary_smoother smooth(surface, lifted, segment_of_face, numbers, joining);
+  const Boundary_smoother smooth(surface, lifted, segment_of_face, numbers, joining, crossings);
   return smooth(sharp_halfedges(surface.open(), normals, smoothing.crease_angle), progress.part(0.5, 1));
 }
 

@@ -136,20 +136,24 @@ inline double width_of_border(const Tile_plan& plan, const Normal_smoothing& smo
   return smoothing_lengths * widening * smoothing.radius * std::sqrt(plan.total_area);
 }
 
-/// The faces of a tile up to a distance from the vertices that it shares, and the walls between them.
-inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared,
+/// By vertex of a tile: what it is to all tiles, or `Tile_border::none`.
+inline std::vector<Dual_mesh::Index> ids_of_vertices(const Dual_mesh& mesh,
+                                                     const std::vector<Tile_plan::Shared_vertex>& shared) {
+  std::vector<Dual_mesh::Index> id(mesh.number_of_vertices(), Tile_border::none);
+  for (const auto& [vertex, number] : shared) id[vertex] = number;
+  return id;
+}
+
+/// The faces of a tile up to a distance, the width of the border, from some faces, and the walls between them.
+/// \param id by vertex
+inline void take_border(const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& sources,
+                        const std::vector<Dual_mesh::Index>& id,
                         const std::vector<std::array<Dual_mesh::Index, 2>>& walls, Tile_border& border) {
   using Index = Dual_mesh::Index;
-  std::vector<Index> id(mesh.number_of_vertices(), Tile_border::none);
-  for (const auto& [vertex, number] : shared) id[vertex] = number;
-  std::vector<Index> at_border;
-  for (Index f = 0; f < mesh.number_of_faces(); ++f)
-    for (const Index v : mesh.corners(f))
-      if (id[v] != Tile_border::none) at_border.push_back(f);
   std::vector<Eigen::Vector3d> centroid;
   centroid.reserve(mesh.number_of_faces());
   for (Index f = 0; f < mesh.number_of_faces(); ++f) centroid.push_back(mesh.centroid(f));
-  border.faces = faces_within(mesh.graph(), at_border, border.width, centroid);
+  border.faces = faces_within(mesh.graph(), sources, border.width, centroid);
   std::sort(border.faces.begin(), border.faces.end());
 
   std::vector<Index> number(mesh.number_of_vertices(), Tile_border::none);
@@ -167,6 +171,17 @@ inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shar
   for (const auto& [u, v] : walls)
     if (number[u] != Tile_border::none && number[v] != Tile_border::none)
       border.walls.push_back({number[u], number[v]});
+}
+
+/// As above, from the vertices that the tile shares.
+inline void take_border(const Dual_mesh& mesh, const std::vector<Tile_plan::Shared_vertex>& shared,
+                        const std::vector<std::array<Dual_mesh::Index, 2>>& walls, Tile_border& border) {
+  const std::vector<Dual_mesh::Index> id = ids_of_vertices(mesh, shared);
+  std::vector<Dual_mesh::Index> at_border;
+  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f)
+    for (const auto v : mesh.corners(f))
+      if (id[v] != Tile_border::none) at_border.push_back(f);
+  take_border(mesh, at_border, id, walls, border);
 }
 
 }  // namespace internal
