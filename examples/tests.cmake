@@ -144,7 +144,7 @@ collection_test(segment_mesh sh
 
 # Tiles of one mesh, by the recipe.
 if(TARGET segment_mesh AND data_dir)
-  foreach(options IN ITEMS "" --engineering)
+  foreach(options IN ITEMS "" --engineering --refine)
     add_test(NAME example.tiles.snakemake${options}
       COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_tiles.sh snakemake $<TARGET_FILE:segment_mesh> ${meshes}
         ${CMAKE_CURRENT_BINARY_DIR}/tests/tiles.snakemake${options} "${options}"

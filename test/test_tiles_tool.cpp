@@ -509,14 +509,55 @@ class Tiles_of_ball : public Tiles {
 
 TEST_F(Tiles_of_ball, StillMeetVertexByVertexWhenRefined) {
   segment({"--refine", "--output", "%_refined.off"});
-  std::size_t added = 0;
+  std::size_t added = 0, sides = 0, refined_sides = 0;
+  std::map<std::array<Place, 2>, std::size_t> tiles;  // by side at their borders
   for (std::size_t t = 0; t < 4; ++t) {
     const auto whole = triangles_of(t), refined = triangles_in(path("tile_" + std::to_string(t) + "_refined.off"));
     added += refined.size() - whole.size();
-    EXPECT_EQ(border_of(refined), border_of(whole));
+    sides += border_of(whole).size();
+    refined_sides += border_of(refined).size();
+    for (const auto& side : border_of(refined)) ++tiles[side];
     EXPECT_NEAR(area_of(refined), area_of(whole), 1e-9);
   }
+  for (const auto& [side, count] : tiles) EXPECT_EQ(count, 2U);
   EXPECT_GT(added, 100U);
+  EXPECT_GT(refined_sides, sides);  // where boundaries cross them
+}
+
+TEST_F(Tiles_of_ball, AreRefinedInTheSameWayByOneWorkerManyOrStepByStep) {
+  const std::vector<std::string> refine = {"--refine", "--output", "%_refined.off"};
+  const auto take_files = [&] {
+    std::vector<std::string> contents;
+    for (std::size_t t = 0; t < 4; ++t) {
+      const std::string file = path("tile_" + std::to_string(t) + "_refined.off");
+      contents.push_back(content_of(file));
+      fs::remove(file);
+    }
+    return contents;
+  };
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), refine.begin(), refine.end());
+    return more;
+  };
+  segment(with({"--workers", "1"}));
+  const auto by_one = take_files();
+  segment(with({"--workers", "4"}));
+  EXPECT_EQ(take_files(), by_one);
+  for (const char* name : {"survey", "plan", "border", "noise", "shape", "places", "seeds", "clusters", "walk",
+                           "fragments", "merge", "strips", "crossings", "labels", "report"}) {
+    const std::string step = name;
+    const bool is_one_of_each = is_of_each_tile(step) || step == "strips" || step == "crossings";
+    for (std::size_t t = is_one_of_each ? 4 : 1; t-- > 0;) {  // the last tile first
+      std::vector<std::string> more = {"--tile-folder", "work", "--tile-step", step};
+      if (is_one_of_each) more.insert(more.end(), {"--tile", std::to_string(t)});
+      segment(with(more));
+    }
+  }
+  EXPECT_EQ(take_files(), by_one);
+  fs::remove(path("work/crossings_1"));
+  fs::remove(path("work/labels_2"));
+  segment(with({"--tile-folder", "work"}));
+  EXPECT_EQ(take_files(), by_one);
 }
 
 TEST_F(Tiles_of_ball, HaveTheLabelsOfFacesAroundWhenRefined) {
@@ -547,12 +588,13 @@ TEST_F(Tiles_of_ball, HaveTheLabelsOfFacesAroundWhenRefined) {
     EXPECT_EQ(segment["faces"], faces[segment["label"].get<std::size_t>()]);
 }
 
-TEST_F(Tiles_of_ball, HaveBoundariesThatEndAtBordersAndWhereSegmentsMeet) {
+TEST_F(Tiles_of_ball, HaveBoundariesThatEndAtBordersWhereTheyGoOnOrWhereSegmentsMeet) {
   segment({"--boundaries", "%_jagged.obj"});
   const auto labels = take_labels();
   segment({"--smooth", "--boundaries", "%_smooth.obj"});
   EXPECT_EQ(take_labels(), labels);
   double jagged_length = 0, smooth_length = 0;
+  std::map<Place, std::size_t> tiles_with_end;  // within a side of the border
   for (std::size_t t = 0; t < 4; ++t) {
     const std::string tile = path("tile_" + std::to_string(t));
     const auto jagged = lines_in(tile + "_jagged.obj"), smooth = lines_in(tile + "_smooth.obj");
@@ -560,14 +602,20 @@ TEST_F(Tiles_of_ball, HaveBoundariesThatEndAtBordersAndWhereSegmentsMeet) {
     smooth_length += length_of(smooth);
     std::set<Place> on_border;
     for (const auto& side : border_of(triangles_of(t))) on_border.insert(side.begin(), side.end());
-    for (const auto& lines : {jagged, smooth}) {
+    for (const bool is_smooth : {false, true}) {
       std::map<Place, std::size_t> ends;
-      for (const auto& line : lines)
+      for (const auto& line : is_smooth ? smooth : jagged)
         if (line.front() != line.back())
           for (const Place& end : {line.front(), line.back()}) ++ends[end];
-      for (const auto& [end, count] : ends) EXPECT_TRUE(count > 2 || on_border.count(end) > 0) << t;
+      for (const auto& [end, count] : ends) {
+        const bool is_at_vertex = count > 2 || on_border.count(end) > 0;
+        EXPECT_TRUE(is_at_vertex || is_smooth) << t;
+        if (!is_at_vertex) ++tiles_with_end[end];
+      }
     }
   }
+  EXPECT_GT(tiles_with_end.size(), 2U);
+  for (const auto& [end, count] : tiles_with_end) EXPECT_EQ(count, 2U);
   EXPECT_GT(smooth_length, 0.5 * jagged_length);
   EXPECT_LT(smooth_length, 0.95 * jagged_length);
 }

@@ -33,8 +33,12 @@ STEPS_OF_WALKS = (
     ("fragments", True, "regions"),
 )
 STEPS_OF_SURFACES = (("surfaces", True, "regions"),)
+MERGE = ("merge", False, "segments")
+STEPS_OF_SMOOTH_BOUNDARIES = (
+    ("strips", True, "strip"),
+    ("crossings", True, "crossings"),
+)
 LAST_STEPS = (
-    ("merge", False, "segments"),
     ("labels", True, "labels"),
     ("report", False, "report"),
 )
@@ -59,7 +63,10 @@ def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options
     command = ["segment_mesh", "--quiet", "--tiled", "--list", str(tile_list)]
     command += ["--tile-folder", str(work), "--labels", f"{outputs}/%.seg", *options]
     of_method = STEPS_OF_SURFACES if "--engineering" in options else STEPS_OF_WALKS
-    for step, is_of_each_tile, file in (*FIRST_STEPS, *of_method, *LAST_STEPS):
+    words = {word.split("=")[0] for word in options}
+    smooths_boundaries = "--refine" in words or words >= {"--smooth", "--boundaries"}
+    of_boundaries = STEPS_OF_SMOOTH_BOUNDARIES if smooths_boundaries else ()
+    for step, is_of_each_tile, file in (*FIRST_STEPS, *of_method, MERGE, *of_boundaries, *LAST_STEPS):
         places: list[int | None] = list(range(len(tiles))) if is_of_each_tile else [None]
         left = [place for place in places if not (work / (file if place is None else f"{file}_{place}")).exists()]
         tasks = [client.submit(run_step, command, step, place, pure=False, retries=2) for place in left]

@@ -4,6 +4,7 @@
 
 #include <RW_segmentation/smooth_boundaries.h>
 #include <RW_segmentation/split_along_boundaries.h>
+#include <RW_segmentation/tiled_boundaries.h>
 
 #include <cstddef>
 #include <functional>
@@ -18,6 +19,15 @@ Boundary_curves boundary_curves(const Mesh& mesh, const Wall_map& walls, std::ve
   if (!is_smooth) smoothing.largest_displacement = 0;
   return RW_segmentation::smooth_boundaries(mesh, face_map(mesh, label), smoothing,
                                             CGAL::parameters::callback(callback).edge_is_constrained_map(walls));
+}
+
+Boundary_curves boundary_curves_of_tile(const Mesh& mesh, const Wall_map& walls, std::vector<std::size_t>& label,
+                                        const RW_segmentation::Tile_in_plan& place,
+                                        const std::vector<RW_segmentation::Tile_crossing>& crossings,
+                                        const std::function<bool(double)>& callback) {
+  return RW_segmentation::smooth_boundaries_of_tile(
+      mesh, face_map(mesh, label), place, crossings, {},
+      CGAL::parameters::callback(callback).edge_is_constrained_map(walls));
 }
 
 namespace {

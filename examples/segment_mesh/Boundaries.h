@@ -10,6 +10,8 @@
 #include "walls.h"
 
 #include <RW_segmentation/Boundary_curve.h>
+#include <RW_segmentation/tiled_boundaries.h>
+#include <RW_segmentation/tiled_segmentation.h>
 
 #include <cstddef>
 #include <functional>
@@ -22,6 +24,13 @@ using Boundary_curves = std::vector<RW_segmentation::Boundary_curve<Mesh>>;
 /// The boundaries between the segments, smooth ones or as they run along the edges; those on walls stay there.
 Boundary_curves boundary_curves(const Mesh& mesh, const Wall_map& walls, std::vector<std::size_t>& label,
                                 bool is_smooth, const std::function<bool(double)>& callback);
+
+/// The smooth boundaries of a tile.
+/// \param crossings where they go on into other tiles
+Boundary_curves boundary_curves_of_tile(const Mesh& mesh, const Wall_map& walls, std::vector<std::size_t>& label,
+                                        const RW_segmentation::Tile_in_plan& place,
+                                        const std::vector<RW_segmentation::Tile_crossing>& crossings,
+                                        const std::function<bool(double)>& callback);
 
 /// Cuts the curves into the mesh; new faces follow the old ones.
 void cut_boundaries(Mesh& mesh, const Boundary_curves& curves, Segmentation& result);

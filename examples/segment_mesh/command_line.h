@@ -117,7 +117,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_option("--tile-step", options.tile_step,
                  "Do one step only, for schedulers of many machines: survey, border, shape, places, clusters,\n"
                  "fragments and labels of one tile, plan, noise, seeds, walk, merge and report of all. With\n"
-                 "--engineering surfaces of one tile take the place of shape to fragments.")
+                 "--engineering surfaces of one tile take the place of shape to fragments. Smooth boundaries take\n"
+                 "strips and crossings of one tile, after merge.")
       ->option_text("STEP")
       ->group("Tiles of one mesh");
   add_number(app, "--tile", options.tile, places, "The tile of that step, numbered from 0 in the order of the meshes")

@@ -19,18 +19,29 @@ inline bool treats_boundaries(const Options& options) {
   return options.is_refined || !options.files.boundaries.empty();
 }
 
+/// Whether boundaries are smoothed before that.
+inline bool smooths_boundaries(const Options& options) {
+  return options.is_refined || (options.is_smooth && treats_boundaries(options));
+}
+
+/// Writes the boundaries and cuts them into the mesh, as far as asked for.
+inline void use_boundaries(const Options& options, const Boundary_curves& curves, mesh_files::Polygon_soup& soup,
+                           Oriented_mesh& input, Segmentation& result, Output_files& files) {
+  files.write_boundaries(curves);
+  if (!options.is_refined) return;
+  cut_boundaries(input.mesh, curves, result);
+  soup = soup_of(input.mesh);
+  input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
+}
+
 /// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
 inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
                              const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
   if (!treats_boundaries(options)) return;
   const auto callback = stages.start("boundaries");
   const Boundary_curves curves =
-      boundary_curves(input.mesh, walls, result.label, options.is_smooth || options.is_refined, callback);
-  files.write_boundaries(curves);
-  if (!options.is_refined) return;
-  cut_boundaries(input.mesh, curves, result);
-  soup = soup_of(input.mesh);
-  input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
+      boundary_curves(input.mesh, walls, result.label, smooths_boundaries(options), callback);
+  use_boundaries(options, curves, soup, input, result, files);
 }
 
 }  // namespace segment_mesh

@@ -21,6 +21,7 @@
 #include "Tile_step.h"
 #include "Walk_steps.h"
 
+#include <RW_segmentation/tiled_boundaries.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
@@ -50,6 +51,10 @@ class Tile_steps {
               {"plan", false, {"plan"}, [this](std::size_t) { plan(); }}};
     for (Tile_step& step : options.is_engineering ? surfaces_.steps() : walk_.steps())
       steps_.push_back(std::move(step));
+    if (smooths_boundaries(options)) {
+      steps_.push_back({"strips", true, {"strip"}, [this](std::size_t tile) { strip(tile); }});
+      steps_.push_back({"crossings", true, {"crossings"}, [this](std::size_t tile) { crossings(tile); }});
+    }
     steps_.push_back({"labels", true, {"labels"}, [this](std::size_t tile) { labels(tile); }});
     steps_.push_back({"report", false, {"report"}, [this](std::size_t) { report(); }});
   }
@@ -190,6 +195,55 @@ class Tile_steps {
 
   void plan() const { folder_.write("plan", RW::plan_tiles(folder_.read_all<RW::Tile_survey>("survey"), tolerance())); }
 
+  /// The walls of a tile, sharp edges included.
+  Wall_map all_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
+    const Wall_map walls = named_walls(tile, soup, mesh);
+    if (options_.constraints_angle) mark_sharp_edges(mesh, *options_.constraints_angle, walls);
+    return walls;
+  }
+
+  /// The label of each face of a tile.
+  std::vector<std::size_t> labels_of(std::size_t tile, const Tile_segments& all) const {
+    std::vector<std::size_t> label;
+    for (const Index fragment : folder_.read<std::vector<Index>>("fragments", tile))
+      label.push_back(label_of(all.segment(tile, fragment)));
+    return label;
+  }
+
+  /// Each tile finds its sharp edges by itself, so that the boundaries of the last step keep to the same walls.
+  void strip(std::size_t tile) const {
+    RW::Tile_strip strip;
+    if (failure_of(tile).empty()) {
+      auto arrays = folder_.read<RW::Tile>("tile", tile);
+      if (options_.constraints_angle) {
+        mesh_files::Polygon_soup soup;
+        Oriented_mesh input = read_tile(tile, soup);
+        const Wall_map walls = all_walls(tile, soup, input.mesh);
+        arrays = RW::Tile_of<Mesh>(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
+      }
+      strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")},
+                                labels_of(tile, folder_.read<Tile_segments>("segments")));
+    }
+    folder_.write_of_tile(tile, "strip", strip);
+  }
+
+  void crossings(std::size_t tile) const {
+    const auto plan = folder_.read<RW::Tile_plan>("plan");
+    folder_.write_of_tile(tile, "crossings",
+                          RW::crossings_of_tile({tile, plan}, folder_.read<RW::Tile_strip>("strip", tile),
+                                                folder_.read_neighbours<RW::Tile_strip>("strip", plan, tile), {},
+                                                wall_angle_of(options_)));
+  }
+
+  /// The crossings that a tile and its neighbours have found.
+  std::vector<RW::Tile_crossing> crossings_around(std::size_t tile, const RW::Tile_plan& plan) const {
+    using Crossings = std::vector<RW::Tile_crossing>;
+    auto all = folder_.read<Crossings>("crossings", tile);
+    for (const Crossings& of_neighbour : folder_.read_neighbours<Crossings>("crossings", plan, tile))
+      all.insert(all.end(), of_neighbour.begin(), of_neighbour.end());
+    return all;
+  }
+
   /// What is written of a tile.
   struct Labelled_tile {
     mesh_files::Polygon_soup soup;
@@ -214,13 +268,21 @@ class Tile_steps {
   Labelled_tile with_boundaries(std::size_t tile, const std::vector<std::size_t>& label, Output_files& files) const {
     Labelled_tile labelled;
     Oriented_mesh input = read_tile(tile, labelled.soup);
-    const Wall_map walls = named_walls(tile, labelled.soup, input.mesh);
-    if (options_.constraints_angle) mark_sharp_edges(input.mesh, *options_.constraints_angle, walls);
+    const Wall_map walls = all_walls(tile, labelled.soup, input.mesh);
     labelled.result.label.resize(label.size());
     const RW::Tile_of<Mesh> numbered(input.mesh);
     for (Index f = 0; f < label.size(); ++f) labelled.result.label[numbered.face_descriptors[f]] = label[f];
-    Stages without_bar(false, "", is_interrupted, Deadline({}));
-    treat_boundaries(options_, labelled.soup, input, walls, labelled.result, without_bar, files);
+    if (smooths_boundaries(options_)) {
+      const auto plan = folder_.read<RW::Tile_plan>("plan");
+      const auto go_on = [](double) { return is_interrupted == 0; };
+      use_boundaries(options_,
+                     boundary_curves_of_tile(input.mesh, walls, labelled.result.label, {tile, plan},
+                                             crossings_around(tile, plan), go_on),
+                     labelled.soup, input, labelled.result, files);
+    } else {
+      Stages without_bar(false, "", is_interrupted, Deadline({}));
+      treat_boundaries(options_, labelled.soup, input, walls, labelled.result, without_bar, files);
+    }
     labelled.faces = faces_in_file_order(labelled.soup, input);
     return labelled;
   }
@@ -231,10 +293,9 @@ class Tile_steps {
     if (failure_of(tile).empty()) {
       Output_files files(tasks_[tile].files, options_);
       std::vector<Index> tile_faces;
-      std::vector<std::size_t> left_out, label;
+      std::vector<std::size_t> left_out;
       folder_.read_of_tile_into(tile, "file_faces", tile_faces, left_out);
-      for (const Index fragment : folder_.read<std::vector<Index>>("fragments", tile))
-        label.push_back(label_of(all.segment(tile, fragment)));
+      std::vector<std::size_t> label = labels_of(tile, all);
       const Labelled_tile labelled = treats_boundaries(options_) ? with_boundaries(tile, label, files)
                                                                  : labelled_file(tile, tile_faces, std::move(label));
       std::vector<Segment> segments;

@@ -6,6 +6,7 @@
 #include "Step_file.h"
 
 #include <RW_segmentation/Learned_cost.h>
+#include <RW_segmentation/tiled_boundaries.h>
 #include <RW_segmentation/tiled_segmentation.h>
 #include <RW_segmentation/tiled_surfaces.h>
 
@@ -219,6 +220,21 @@ void transfer(Archive& a, Merge_tree::Merge& x) {
   a(x.first);
   a(x.second);
   a(x.cost);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_strip& x) {
+  a(x.faces);
+  a(x.segments);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_crossing& x) {
+  a(x.tiles);
+  a(x.ends);
+  a(x.side);
+  a(x.position);
+  a(x.beyond);
 }
 
 namespace internal {
