@@ -51,7 +51,7 @@ struct Face_integrals {
 ///
 ///   double integral of f(u, v) du dv = integral of F(u, v) dv along the border, where dF/du = f.
 ///
-/// The border is taken as it is, however many knots it has, which the kernel's own integrals miss or take 10 to 40 times as
+/// The border is taken as it is, however many knots it has, which the kernel's own integrals miss or take 6 to 40 times as
 /// long for. F is known on planes and surfaces of revolution, and integrated from knot to knot on B-splines.
 class Face_integration {
  public:
