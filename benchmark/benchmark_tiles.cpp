@@ -15,8 +15,6 @@
 #include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
-#include <CGAL/subdivision_method_3.h>
-
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 
@@ -53,17 +51,6 @@ struct Arguments {
 
 using namespace mesh_tiles;
 using Face = Mesh::Face_index;
-
-/// A file, or one of CGAL's data meshes, subdivided until it has as many faces as asked for, or up to half as many.
-Mesh read_subdivided(const std::string& name, std::size_t faces) {
-  Mesh mesh = read_mesh(std::filesystem::exists(name) ? name : data_mesh(name + ".off"));
-  while (4 * mesh.number_of_faces() <= faces)
-    CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
-  if (3 * mesh.number_of_faces() <= faces)
-    CGAL::Subdivision_method_3::Sqrt3_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
-  mesh.collect_garbage();
-  return mesh;
-}
 
 // ---- Cutting ----
 

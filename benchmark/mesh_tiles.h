@@ -8,19 +8,34 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Tile.h>
 
+#include <CGAL/subdivision_method_3.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "measurement.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace mesh_tiles {
 
 using measurement::Mesh;
 using Labels = std::vector<std::size_t>;
+
+/// A file, or one of CGAL's data meshes, subdivided until it has as many faces as asked for, or up to half as many.
+inline Mesh read_subdivided(const std::string& name, std::size_t faces) {
+  Mesh mesh = measurement::read_mesh(std::filesystem::exists(name) ? name : measurement::data_mesh(name + ".off"));
+  while (4 * mesh.number_of_faces() <= faces)
+    CGAL::Subdivision_method_3::Loop_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
+  if (3 * mesh.number_of_faces() <= faces)
+    CGAL::Subdivision_method_3::Sqrt3_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
+  mesh.collect_garbage();
+  return mesh;
+}
 
 /// The tile of each face by its place: boxes of one size, whose longest side is halved, cut in three and so on until there
 /// are enough.

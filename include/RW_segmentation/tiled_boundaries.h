@@ -106,7 +106,7 @@ std::vector<Tile_crossing> crossings_of_tile(const Tile_in_plan& place, const Ti
 /// tiles, to the last bit, where those of the ends of the side are the same.
 ///
 /// \tparam ConcurrencyTag, FaceListGraph, SegmentIdMap, NamedParameters see `smooth_boundaries()`
-/// \param mesh the tile, as it was when `Tile_of` read it
+/// \param mesh the tile, as it was when `Tile_of` read it: its vertices are numbered so in the plan
 /// \param segment_ids the segment of each face
 /// \param place the tile
 /// \param crossings those that this tile and its neighbours have found; those of other tiles are passed over
