@@ -264,12 +264,12 @@ inline void absorb_slivers(const Halfedge_triangles& mesh, const std::vector<Ana
   constexpr double reach = 1e-5;              // of the diagonal
   std::vector<std::size_t> all(mesh.number_of_triangles());
   std::iota(all.begin(), all.end(), std::size_t(0));
-  std::vector<std::vector<std::size_t>> triangles_of(surfaces.size());
+  std::map<std::size_t, std::vector<std::size_t>> triangles_of;  // by surface
   for (const std::size_t t : all) triangles_of[segment_of_triangle[t]].push_back(t);
   const auto is_analytic = [&](std::size_t s) { return surfaces[s].type != Surface_type::free_form; };
-  std::vector<double> own_bulge(surfaces.size(), 0);
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
-    if (is_analytic(s)) own_bulge[s] = bulge(mesh, triangles_of[s], surfaces[s]);
+  std::map<std::size_t, double> own_bulge;
+  for (const auto& [s, triangles] : triangles_of)
+    if (is_analytic(s)) own_bulge[s] = bulge(mesh, triangles, surfaces[s]);
 
   for (const auto& part : mesh.parts(all, segment_of_triangle)) {
     if (part.size() > most_triangles) continue;
@@ -279,7 +279,7 @@ inline void absorb_slivers(const Halfedge_triangles& mesh, const std::vector<Ana
       for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
         if (mesh.neighbour(h) == none) continue;
         const std::size_t other = segment_of_triangle[mesh.neighbour(h)];
-        if (other != own && is_analytic(other) && triangles_of[other].size() > part.size())
+        if (other != own && is_analytic(other) && triangles_of.at(other).size() > part.size())
           shared_length[other] += mesh.length(h);
       }
     std::size_t best = none;
@@ -289,7 +289,7 @@ inline void absorb_slivers(const Halfedge_triangles& mesh, const std::vector<Ana
       const bool is_near = std::all_of(corners.begin(), corners.end(), [&](std::size_t v) {
         return std::abs(surface.signed_distance(mesh.point(v))) < reach * mesh.diagonal();
       });
-      if (!is_near || bulge(mesh, part, surface) >= 1.5 * own_bulge[other] + reach / 10 * mesh.diagonal()) continue;
+      if (!is_near || bulge(mesh, part, surface) >= 1.5 * own_bulge.at(other) + reach / 10 * mesh.diagonal()) continue;
       if (best == none || length > shared_length[best]) best = other;
     }
     if (best == none) continue;
