@@ -8,8 +8,8 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
-#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
+#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
