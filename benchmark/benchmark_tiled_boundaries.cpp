@@ -4,6 +4,7 @@
 // tile smooths them by itself, if tiles agree on where they cross their borders, and on the whole; and whether tiles that
 // are cut along them still meet vertex by vertex.
 
+#include "../test/boundaries_of_tiles.h"
 #include "measurement.h"
 #include "mesh_tiles.h"
 
@@ -21,18 +22,15 @@
 
 #include <boost/property_map/property_map.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace RW_segmentation;
@@ -40,28 +38,9 @@ using namespace measurement;
 
 namespace {
 
+using namespace boundaries_of_tiles;
 using mesh_tiles::Labels;
 using Curves = std::vector<Boundary_curve<Mesh>>;
-using Place = std::array<double, 3>;
-using Places = std::map<Place, double>;  // with the turn of a boundary there, in radians
-
-Eigen::Vector3d vector_to(const Mesh::Point& p) { return {p.x(), p.y(), p.z()}; }
-
-/// From a point of a curve to the first one that is as far away in one direction, or to the end.
-Eigen::Vector3d way_from(const Boundary_curve<Mesh>& curve, std::size_t start, bool is_forward, double distance) {
-  const std::size_t size = curve.points.size();
-  const Eigen::Vector3d from = vector_to(curve.points[start].point);
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k < size && way.norm() < distance; ++k) {
-    if (!curve.is_closed && (is_forward ? start + k >= size : k > start)) break;
-    way = vector_to(curve.points[(is_forward ? start + k : start + size - k) % size].point) - from;
-  }
-  return way;
-}
-
-double turn_between(const Eigen::Vector3d& back, const Eigen::Vector3d& forth) {
-  return std::acos(std::clamp(-back.normalized().dot(forth.normalized()), -1., 1.));
-}
 
 /// A mesh in tiles, each of which is a mesh with labels.
 class Tiled_mesh {
@@ -101,14 +80,14 @@ class Tiled_mesh {
 
   /// The sides that one tile has and no other one, more than before, once all are cut along curves.
   std::size_t open_sides_when_cut(const std::vector<Curves>& curves) {
-    const std::size_t before = open_sides();
+    const std::size_t before = open_sides(meshes_);
     for (std::size_t t = 0; t < meshes_.size(); ++t) {
       auto labels = meshes_[t].add_property_map<Mesh::Face_index, std::size_t>("f:label").first;
       for (std::size_t f = 0; f < labels_[t].size(); ++f)
         labels[Mesh::Face_index(static_cast<Mesh::size_type>(f))] = labels_[t][f];
       split_along_boundaries(meshes_[t], curves[t], labels);
     }
-    return open_sides() - before;
+    return open_sides(meshes_) - before;
   }
 
  private:
@@ -129,49 +108,16 @@ class Tiled_mesh {
     return {labels_[tile].begin(), get(boost::face_index, meshes_[tile])};
   }
 
-  std::size_t open_sides() const {
-    std::map<std::array<Place, 2>, int> sides;
-    for (const Mesh& mesh : meshes_)
-      for (const auto h : mesh.halfedges()) {
-        if (!mesh.is_border(h)) continue;
-        const auto place = [&](Mesh::Vertex_index v) {
-          return Place{mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
-        };
-        ++sides[{place(mesh.source(h)), place(mesh.target(h))}];
-        --sides[{place(mesh.target(h)), place(mesh.source(h))}];
-      }
-    return static_cast<std::size_t>(
-        std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second > 0; }));
-  }
-
   Tile_plan plan_;
   std::vector<Mesh> meshes_;
   std::vector<Labels> labels_;
   std::vector<Tile_crossing> crossings_;
 };
 
-/// Where boundaries of two tiles end in one point, in which no third one does.
-Places turns_at_borders(const std::vector<Curves>& curves, double distance) {
-  std::map<Place, std::vector<Eigen::Vector3d>> ways;
-  for (const Curves& of_tile : curves)
-    for (const auto& curve : of_tile) {
-      if (curve.is_closed) continue;
-      for (const bool is_first : {true, false}) {
-        const std::size_t end = is_first ? 0 : curve.points.size() - 1;
-        const auto& p = curve.points[end].point;
-        ways[{p.x(), p.y(), p.z()}].push_back(way_from(curve, end, is_first, distance));
-      }
-    }
-  Places turns;
-  for (const auto& [place, directions] : ways)
-    if (directions.size() == 2) turns[place] = turn_between(directions[0], directions[1]);
-  return turns;
-}
-
 /// The turns of the whole's boundaries where they are closest to some places.
-Places turns_of_whole(const Curves& curves, const Places& places, double distance) {
-  Places turns;
-  for (const auto& [place, unused] : places) {
+Turns turns_of_whole(const Curves& curves, const Turns& at, double distance) {
+  Turns turns;
+  for (const auto& [place, unused] : at) {
     const Eigen::Vector3d p(place[0], place[1], place[2]);
     double closest = std::numeric_limits<double>::infinity();
     for (const auto& curve : curves)
@@ -185,7 +131,7 @@ Places turns_of_whole(const Curves& curves, const Places& places, double distanc
   return turns;
 }
 
-double mean_degrees(const Places& turns) {
+double mean_degrees(const Turns& turns) {
   constexpr double degrees = 180 / 3.14159265358979323846;
   const double sum =
       std::accumulate(turns.begin(), turns.end(), 0., [](double s, const auto& turn) { return s + turn.second; });
@@ -212,20 +158,20 @@ void measure(const std::string& name, std::size_t faces_at_most, const std::vect
     const std::vector<Tile> tiles = mesh_tiles::cut(mesh, tile, faces);
     Tiled_mesh tiled(tiles, faces, Labels(segments.begin(), segments.end()));
     const std::vector<Curves> curves = tiled.curves(tiled.crossings());
-    const Places alone = turns_at_borders(tiled.curves({}), chord), agreed = turns_at_borders(curves, chord);
+    const Turns alone = turns_at_borders(tiled.curves({}), chord), agreed = turns_at_borders(curves, chord);
     const double turn_of_whole = mean_degrees(turns_of_whole(whole, agreed, chord));
-    const std::size_t open_sides = tiled.open_sides_when_cut(curves);
+    const std::size_t open = tiled.open_sides_when_cut(curves);
     const std::string stem = std::filesystem::path(name).stem().string();
     std::printf("%-12s %8zu %5zu %9zu %6zu %7.1f %6zu %7.1f %7.1f %5zu\n", stem.c_str(),
                 std::size_t(mesh.number_of_faces()), tiles.size(), tiled.crossings().size(), alone.size(),
-                mean_degrees(alone), agreed.size(), mean_degrees(agreed), turn_of_whole, open_sides);
+                mean_degrees(alone), agreed.size(), mean_degrees(agreed), turn_of_whole, open);
     std::fflush(stdout);
     Result& result = results.emplace_back("tiled_boundaries");
     result.add("mesh", stem).add("faces", std::size_t(mesh.number_of_faces())).add("tiles", tiles.size());
     result.add("crossings", tiled.crossings().size());
     result.add("places_alone", alone.size()).add("turn_alone", mean_degrees(alone));
     result.add("places", agreed.size()).add("turn", mean_degrees(agreed)).add("turn_of_whole", turn_of_whole);
-    result.add("open_sides", open_sides);
+    result.add("open_sides", open);
   }
 }
 

@@ -11,19 +11,17 @@
 
 #include <gtest/gtest.h>
 #include "boundaries.h"
+#include "boundaries_of_tiles.h"
 #include "cut_into_tiles.h"
 #include "meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <random>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace test_tiled_boundaries {
@@ -37,7 +35,7 @@ using Labels = std::vector<std::size_t>;
 using Mesh = meshes::Surface_mesh;
 using meshes::Shape;
 using Curves = std::vector<Boundary_curve<Mesh>>;
-using Place = std::array<double, 3>;
+using namespace boundaries_of_tiles;
 using namespace tiles;
 
 /// A mesh in tiles with smooth boundaries.
@@ -96,55 +94,17 @@ class Smooth_tiles {
   std::vector<Labels> labels_;
 };
 
-/// The turns, in radians, of boundaries where they go on from tile to tile: between the points at a distance on both sides.
-std::vector<double> turns_at_borders(const std::vector<Curves>& curves, double distance) {
-  std::map<Place, std::vector<Eigen::Vector3d>> ways;
-  for (const Curves& of_tile : curves)
-    for (const auto& curve : of_tile) {
-      if (curve.is_closed) continue;
-      for (const bool is_first : {true, false}) {
-        std::vector<Eigen::Vector3d> points = boundaries::points_of(curve);
-        if (!is_first) std::reverse(points.begin(), points.end());
-        std::size_t i = 1;
-        while (i + 1 < points.size() && (points[i] - points[0]).norm() < distance) ++i;
-        ways[{points[0][0], points[0][1], points[0][2]}].push_back((points[i] - points[0]).normalized());
-      }
-    }
-  std::vector<double> turns;
-  for (const auto& [place, directions] : ways)
-    if (directions.size() == 2) turns.push_back(std::acos(std::clamp(-directions[0].dot(directions[1]), -1., 1.)));
-  return turns;
-}
-
 std::vector<Curves> curves_of(Smooth_tiles& tiles) {
   std::vector<Curves> curves;
   for (std::size_t t = 0; t < tiles.meshes.size(); ++t) curves.push_back(tiles.curves(t));
   return curves;
 }
 
-/// The sides of a mesh that no other face of it has, by their places, in the directions of their open halfedges.
-std::map<std::array<Place, 2>, int> border_of(const Mesh& mesh) {
-  const auto place = [&](Mesh::Vertex_index v) {
-    const auto& p = mesh.point(v);
-    return Place{p[0], p[1], p[2]};
-  };
-  std::map<std::array<Place, 2>, int> sides;
-  for (const auto h : mesh.halfedges())
-    if (mesh.is_border(h)) ++sides[{place(mesh.source(h)), place(mesh.target(h))}];
-  return sides;
-}
-
-/// The sides of all tiles that no other tile has in the opposite direction.
-std::size_t open_sides(const std::vector<Mesh>& meshes) {
-  std::map<std::array<Place, 2>, int> all;
-  for (const Mesh& mesh : meshes)
-    for (const auto& [side, count] : border_of(mesh)) all[side] += count;
-  std::size_t open = 0;
-  for (const auto& [side, count] : all) {
-    const auto other = all.find({side[1], side[0]});
-    open += other == all.end() || other->second != count;
-  }
-  return open;
+/// The sides of a mesh that one face has.
+std::size_t sides_of_border(const Mesh& mesh) {
+  const auto halfedges = mesh.halfedges();
+  return static_cast<std::size_t>(
+      std::count_if(halfedges.begin(), halfedges.end(), [&](auto h) { return mesh.is_border(h); }));
 }
 
 /// Cuts a sphere by two planes into four segments.
@@ -153,10 +113,6 @@ Labels quarters(const Shape& shape) {
     return std::size_t(p.dot(Eigen::Vector3d(0.3, 0.9, 0.2)) > 0.1) +
            2 * std::size_t(p.dot(Eigen::Vector3d(0.2, -0.3, 1)) > 0.15);
   });
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
 }
 
 TEST(TiledBoundaries, CrossABorderWhereAStraightBoundaryDoes) {
@@ -178,7 +134,7 @@ TEST(TiledBoundaries, CrossABorderWhereAStraightBoundaryDoes) {
           const bool is_inside = p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1;
           EXPECT_TRUE(!is_inside || std::abs(off_the_line(p)) < 0.5 / n) << slope;
         }
-    for (const double turn : turns_at_borders(curves, 2. / n)) EXPECT_LT(turn, 0.1) << slope;
+    for (const auto& [place, turn] : turns_at_borders(curves, 2. / n)) EXPECT_LT(turn, 0.1) << slope;
   }
 }
 
@@ -188,14 +144,15 @@ TEST(TiledBoundaries, TurnNoMoreAtBordersThanTheSphereDoes) {
   const Shape shape = meshes::sphere(levels);
   for (const std::size_t count : {2U, 5U}) {
     Smooth_tiles tiles(slices(shape, count), quarters(shape));
-    const std::vector<double> turns = turns_at_borders(curves_of(tiles), distance);
+    std::vector<double> turns;
+    for (const auto& [place, turn] : turns_at_borders(curves_of(tiles), distance)) turns.push_back(turn);
+    const double mean = std::accumulate(turns.begin(), turns.end(), 0.) / static_cast<double>(turns.size());
     EXPECT_GE(turns.size(), 4 * (count - 1));
     // Chords of so many edges turn by the distance; circles that are smaller than great ones turn by a little more.
-    EXPECT_LT(mean_of(turns), 1.2 * distance);
+    EXPECT_LT(mean, 1.2 * distance);
     EXPECT_LT(*std::max_element(turns.begin(), turns.end()), 1.5 * distance);
     tiles.crossings.clear();  // as boundaries are without
-    const std::vector<double> pinned = turns_at_borders(curves_of(tiles), distance);
-    EXPECT_LT(pinned.size(), turns.size());
+    EXPECT_LT(turns_at_borders(curves_of(tiles), distance).size(), turns.size());
   }
 }
 
@@ -225,7 +182,7 @@ TEST(TiledBoundaries, OfRefinedTilesMeetVertexByVertex) {
     std::size_t face = 0;
     Smooth_tiles tiles(cut(shape, number, [&](const Eigen::Vector3d&) { return tile[face++]; }), labels);
     std::size_t sides = 0, on_side = 0;
-    for (const Mesh& mesh : tiles.meshes) sides += border_of(mesh).size();
+    for (const Mesh& mesh : tiles.meshes) sides += sides_of_border(mesh);
     for (const Tile_crossing& crossing : tiles.crossings) on_side += crossing.side[0] != crossing.side[1];
     std::size_t refined_sides = 0;
     for (std::size_t t = 0; t < tiles.meshes.size(); ++t) {
@@ -236,7 +193,7 @@ TEST(TiledBoundaries, OfRefinedTilesMeetVertexByVertex) {
       EXPECT_EQ(after.regions, before.regions);
       EXPECT_EQ(after.labels, before.labels);
       EXPECT_NEAR(after.area, before.area, 1e-12);
-      refined_sides += border_of(tiles.meshes[t]).size();
+      refined_sides += sides_of_border(tiles.meshes[t]);
     }
     EXPECT_EQ(open_sides(tiles.meshes), 0U) << seed;
     EXPECT_EQ(refined_sides, sides + 2 * on_side) << seed;
