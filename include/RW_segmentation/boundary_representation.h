@@ -25,10 +25,13 @@
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
+#include <RW_segmentation/internal/surfaces/out_of_box.h>
 #include <RW_segmentation/internal/threads.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>
+
+#include <Eigen/Core>
 
 #include <Standard_Failure.hxx>
 #include <TopoDS_Face.hxx>
@@ -123,15 +126,6 @@ inline std::string Boundary_representation::defect() const {
 
 namespace internal {
 
-/// A surface in other units.
-inline Analytic_surface scaled_surface(Analytic_surface surface, double scale) {
-  surface.point *= scale;
-  surface.radius *= scale;
-  surface.tube_radius *= scale;
-  surface.residual *= scale;
-  return surface;
-}
-
 inline Boundary_face boundary_face(const brep::Shape_component& component, const brep::Distance_to_mesh& distance,
                                    std::size_t patch_number) {
   const auto& [mesh, building] = component;
@@ -166,7 +160,7 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
                                                        const std::vector<std::size_t>& segment_of_face,
                                                        std::vector<Analytic_surface> surfaces, double scale,
                                                        const Progress& progress) try {
-  for (Analytic_surface& surface : surfaces) surface = scaled_surface(surface, scale);
+  for (Analytic_surface& surface : surfaces) surface = out_of_box(surface, scale, Eigen::Vector3d::Zero());
   // Each component by itself: its lengths decide how exact it is to be, and only it is made again where a face is refused.
   std::deque<brep::Shape_component> components;
   std::size_t faces_done = 0;
@@ -198,7 +192,7 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
     for (const auto& [reason, number] : component.building.refusals()) report.refusals[reason] += number;
   }
   progress(0.9);
-  // Each face was checked by itself as it was made, but for triangles.
+  // All faces but triangles were checked by themselves, with all of their geometry, as they were made.
   report.error = brep::first_error(result.shape, brep::Checked::topology);
   for (const Boundary_face& face : result.faces)
     if (report.error.empty() && face.is_triangle) report.error = brep::first_error(face.face);

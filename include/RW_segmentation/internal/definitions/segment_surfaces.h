@@ -6,6 +6,7 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
+#include <RW_segmentation/internal/surfaces/out_of_box.h>
 #include <RW_segmentation/segment_surfaces.h>
 
 #include <cstddef>

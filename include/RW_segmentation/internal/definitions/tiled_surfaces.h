@@ -9,9 +9,9 @@
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
-#include <RW_segmentation/internal/surfaces/Parts_in_boxes.h>
 #include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
+#include <RW_segmentation/internal/surfaces/out_of_box.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>

@@ -7,6 +7,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/mesh/Face_geometry.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/out_of_box.h>
 
 #include <Eigen/Geometry>
 
@@ -19,18 +20,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-/// A surface whose lengths are in a unit, seen from an origin, as it is where the unit is 1 and the origin 0.
-inline Analytic_surface out_of_box(Analytic_surface surface, double unit, const Eigen::Vector3d& origin) {
-  surface.point = unit * surface.point + origin;
-  surface.radius *= unit;
-  surface.tube_radius *= unit;
-  surface.residual *= unit;
-  surface.errors.point *= unit;
-  surface.errors.radius *= unit;
-  surface.errors.tube_radius *= unit;
-  return surface;
-}
 
 /// A mesh with its small parts in unit boxes of their own, so that each is segmented as if it was alone: what is exact
 /// enough for an assembly is not exact enough for its screws.
