@@ -55,14 +55,15 @@ class Border_polygon {
       for (int i = 1; i <= sides; ++i) {
         const Parameters to = point(curve, first + (last - first) * i / sides);
         sides_.push_back({from, to});
-        box_.extend(from = to);
+        box_.extend(to);
+        from = to;
       }
     }
   }
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Whether a ray from a point leaves it.
+  /// Whether a ray from a point crosses an odd number of sides.
   bool contains(const Parameters& p) const {
     bool is_inside = false;
     for (const auto& [from, to] : sides_) {

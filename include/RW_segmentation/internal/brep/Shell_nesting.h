@@ -36,27 +36,27 @@ class Shell_nesting {
     BRep_Builder builder;
     std::vector<TopoDS_Shape> shapes;
     for (std::size_t i = 0; i < shells_.size(); ++i) {
-      Shell& c = shells_[i];
-      if (!c.is_closed) {
+      Shell& s = shells_[i];
+      if (!s.is_closed) {
         ++open_shells_;
-        shapes.push_back(c.shell);
+        shapes.push_back(s.shell);
         continue;
       }
-      c.outside = c.volume < 0 ? smallest_around(i) : none;
-      if (c.outside != none) continue;
-      if (c.volume < 0) c.shell.Reverse();  // nothing is around it
-      builder.MakeSolid(c.solid);
-      builder.Add(c.solid, c.shell);
+      s.outside = s.volume < 0 ? smallest_around(i) : none;
+      if (s.outside != none) continue;
+      if (s.volume < 0) s.shell.Reverse();  // nothing is around it
+      builder.MakeSolid(s.solid);
+      builder.Add(s.solid, s.shell);
       ++solids_;
     }
-    for (const Shell& c : shells_) {
-      if (c.outside == none) continue;
-      builder.Add(shells_[c.outside].solid, c.shell);
+    for (const Shell& s : shells_) {
+      if (s.outside == none) continue;
+      builder.Add(shells_[s.outside].solid, s.shell);
       ++voids_;
     }
     std::vector<TopoDS_Shape> solids;
-    for (const Shell& c : shells_)
-      if (!c.solid.IsNull()) solids.push_back(c.solid);
+    for (const Shell& s : shells_)
+      if (!s.solid.IsNull()) solids.push_back(s.solid);
     shapes.insert(shapes.end(), solids.begin(), solids.end());
     shape_ = joined(shapes);
   }
@@ -68,13 +68,13 @@ class Shell_nesting {
   std::size_t open_shells() const { return open_shells_; }
   /// Of the mesh; voids are not counted in.
   double mesh_volume() const {
-    return sum_over_solids([](const Shell& c) { return c.volume; });
+    return sum_over_solids([](const Shell& s) { return s.volume; });
   }
   /// Of the solids without their voids.
   double volume() const {
-    return sum_over_solids([](const Shell& c) {
+    return sum_over_solids([](const Shell& s) {
       double sum = 0;
-      for (const Face_integrals& face : c.building.integrals()) sum += face.volume;
+      for (const Face_integrals& face : s.building.integrals()) sum += face.volume;
       return sum;
     });
   }
@@ -105,8 +105,8 @@ class Shell_nesting {
   template <class Volume>
   double sum_over_solids(const Volume& volume) const {
     double sum = 0;
-    for (const Shell& c : shells_)
-      if (c.is_closed) sum += c.outside == none ? std::abs(volume(c)) : volume(c);
+    for (const Shell& s : shells_)
+      if (s.is_closed) sum += s.outside == none ? std::abs(volume(s)) : volume(s);
     return sum;
   }
 
@@ -114,9 +114,9 @@ class Shell_nesting {
     const Point& p = shells_[inner].mesh.point(0);
     std::size_t smallest = none;
     for (std::size_t i = 0; i < shells_.size(); ++i) {
-      const Shell& c = shells_[i];
-      if (!c.is_closed || c.volume <= -shells_[inner].volume) continue;
-      if ((smallest == none || c.volume < shells_[smallest].volume) && winds_round(c.mesh, p)) smallest = i;
+      const Shell& s = shells_[i];
+      if (!s.is_closed || s.volume <= -shells_[inner].volume) continue;
+      if ((smallest == none || s.volume < shells_[smallest].volume) && winds_round(s.mesh, p)) smallest = i;
     }
     return smallest;
   }
