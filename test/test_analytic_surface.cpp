@@ -2,10 +2,13 @@
 
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Surface_samples.h>
+#include <RW_segmentation/internal/surfaces/Principal_axes.h>
 
 #include <gtest/gtest.h>
 #include "solids.h"
 
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -113,6 +116,25 @@ void expect_same(const Analytic_surface& found, const Analytic_surface& truth, d
 }  // namespace
 
 // ---- Surfaces ----
+
+TEST(PrincipalAxes, AreThoseOfEigen) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (Eigen::Index n = 1; n <= 7; ++n)
+    for (const double least : {1., 1e-8, 0.}) {
+      Eigen::MatrixXd factor(n, 3 * n);
+      for (double& x : factor.reshaped()) x = normal(random);
+      factor.row(0) *= least;
+      const Eigen::MatrixXd matrix = factor * factor.transpose();
+      const internal::Principal_axes axes(matrix);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> expected(matrix);
+      const double rounding = 1e-14 * matrix.norm();
+      EXPECT_LE((axes.values() - expected.eigenvalues()).cwiseAbs().maxCoeff(), rounding);
+      EXPECT_TRUE(axes.vectors().isUnitary(1e-13));
+      const Eigen::MatrixXd scaled = axes.vectors() * axes.values().asDiagonal();
+      EXPECT_LE((matrix * axes.vectors() - scaled).cwiseAbs().maxCoeff(), rounding);
+    }
+}
 
 TEST(AnalyticSurface, NormalIsTheGradientOfTheDistance) {
   for (const Piece& piece : pieces(0.3)) {

@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_LEAST_SQUARES_SURFACE_H
 
 #include <RW_segmentation/internal/surfaces/Point_block.h>
+#include <RW_segmentation/internal/surfaces/Principal_axes.h>
 #include <RW_segmentation/internal/surfaces/solve_symmetric.h>
 
 #include <Eigen/Core>
@@ -48,18 +49,20 @@ class Least_squares_surface {
   /// Root mean square distance of the points.
   double residual() const { return std::sqrt(sum_ / number_of_points()); }
 
-  using Matrix = Eigen::Matrix<double, Type::degrees_of_freedom, Type::degrees_of_freedom>;
-
   /// The matrix of the normal equations, whose inverse times the variance of the distances is the covariance of the
   /// unknowns; see `Type::derivatives()`.
-  Matrix normal_matrix() {
+  Small_matrix normal_matrix() {
     linearise(typename Type::Frame(surface_));
-    return hessian_.template selfadjointView<Eigen::Lower>();
+    Small_matrix matrix(unknowns, unknowns);
+    for (int i = 0; i < unknowns; ++i)
+      for (int j = 0; j <= i; ++j) matrix(i, j) = matrix(j, i) = hessian_(i, j);
+    return matrix;
   }
 
  private:
   static constexpr int unknowns = Type::degrees_of_freedom;
   static constexpr int points_at_once = 64;  // a multiple of those of a block
+  using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
 
   double number_of_points() const { return static_cast<double>(points_.size()); }

@@ -6,12 +6,12 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Surface_samples.h>
 #include <RW_segmentation/internal/surfaces/Least_squares_surface.h>
+#include <RW_segmentation/internal/surfaces/Principal_axes.h>
 #include <RW_segmentation/internal/surfaces/Scaled_samples.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -34,9 +34,9 @@ inline Small_matrix covariance_of(const Small_matrix& normal_matrix) {
   Small_matrix scaled = normal_matrix;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) scaled(i, j) /= scale(i) * scale(j);
-  const Eigen::SelfAdjointEigenSolver<Small_matrix> eigen(scaled);
-  const auto& values = eigen.eigenvalues();
-  const auto& vectors = eigen.eigenvectors();
+  const Principal_axes axes(scaled);
+  const auto values = axes.values();
+  const Small_matrix vectors = axes.vectors();
   if (!(values[0] > determined * values[n - 1])) return covariance;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -56,8 +56,7 @@ inline double largest_error(const Small_matrix& covariance, Eigen::Index first, 
   if (count == 0) return 0;
   const Small_matrix block = covariance.block(first, first, count, count);
   if (!block.allFinite()) return std::numeric_limits<double>::infinity();
-  const Eigen::SelfAdjointEigenSolver<Small_matrix> eigen(block, Eigen::EigenvaluesOnly);
-  return standard_deviation(eigen.eigenvalues()[count - 1]);
+  return standard_deviation(Principal_axes(block).values()[count - 1]);
 }
 
 /// The errors of the numbers of a surface from their covariance.

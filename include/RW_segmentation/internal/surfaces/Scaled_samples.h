@@ -17,10 +17,6 @@
 
 namespace RW_segmentation::internal {
 
-/// A square matrix of up to 7 rows, as many as a surface has unknowns. Of one type, since Eigen's decompositions take
-/// seconds to compile for each.
-using Small_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
-
 /// Samples of a surface, and where they lie: first guesses of surfaces are made relative to the mean of the points, in
 /// units of their spread.
 class Scaled_samples {
@@ -33,7 +29,10 @@ class Scaled_samples {
     const auto count = static_cast<double>(std::max<std::size_t>(samples.points.size(), 1));
     for (const Eigen::Vector3d& p : samples.points) mean_ += p;
     mean_ /= count;
-    for (const Eigen::Vector3d& p : samples.points) covariance_ += (p - mean_) * (p - mean_).transpose();
+    for (const Eigen::Vector3d& p : samples.points) {
+      const Eigen::Vector3d offset = p - mean_;
+      covariance_ += offset * offset.transpose();
+    }
     spread_ = std::sqrt(covariance_.trace() / count);
   }
 

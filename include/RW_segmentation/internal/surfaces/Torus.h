@@ -3,11 +3,11 @@
 #ifndef RW_SEGMENTATION_INTERNAL_SURFACES_TORUS_H
 #define RW_SEGMENTATION_INTERNAL_SURFACES_TORUS_H
 
+#include <RW_segmentation/internal/surfaces/Principal_axes.h>
 #include <RW_segmentation/internal/surfaces/Scaled_samples.h>
 #include <RW_segmentation/internal/surfaces/Surface_of_revolution.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ struct Torus : Surface_of_revolution<Torus> {
       line << samples.scaled(samples.normal_points()[i]).cross(samples.normals()[i]), samples.normals()[i];
       sum += line * line.transpose();
     }
-    const Small_matrix complexes = Eigen::SelfAdjointEigenSolver<Small_matrix>(sum).eigenvectors();
+    const Small_matrix complexes = Principal_axes(sum).vectors();
     std::vector<Torus> guesses;
     for (int k = 0; k < 2; ++k) {  // the second one, too, where a piece is so small that it turns about two axes
       const Eigen::Vector3d axis = complexes.col(k).head<3>(), moment = complexes.col(k).tail<3>();
