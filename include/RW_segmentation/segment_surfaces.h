@@ -23,6 +23,14 @@ namespace RW_segmentation {
 
 namespace internal {
 
+struct Surface_tolerance;
+
+/// The surfaces of the segments of a mesh in the unit box.
+/// \param segment_of_face numbers from 0 to `number_of_segments` - 1
+std::vector<Analytic_surface> surfaces_in_unit_box(const Dual_mesh& mesh,
+                                                   const std::vector<std::size_t>& segment_of_face,
+                                                   std::size_t number_of_segments, const Surface_tolerance& tolerance);
+
 /// \param segment_of_face numbers from 0 to `number_of_segments` - 1
 std::vector<Analytic_surface> surfaces_of_segments(const Dual_mesh& mesh,
                                                    const std::vector<std::size_t>& segment_of_face,

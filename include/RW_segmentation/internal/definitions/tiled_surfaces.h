@@ -7,13 +7,14 @@
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
-#include <RW_segmentation/internal/surfaces/Noise_estimate.h>
+#include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Number_sample.h>
-#include <RW_segmentation/internal/surfaces/Surfaces_of_segments.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
+#include <RW_segmentation/internal/surfaces/noise_trials.h>
 #include <RW_segmentation/internal/surfaces/out_of_box.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
+#include <RW_segmentation/segment_surfaces.h>
 #include <RW_segmentation/segmentation_into_surfaces.h>
 #include <RW_segmentation/tiled_surfaces.h>
 
@@ -84,7 +85,7 @@ Dual_mesh mesh_of_samples(const Tile_plan& plan, const std::vector<OfTile>& tile
 inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, const Tile_in_plan& place) {
   using Index = Dual_mesh::Index;
   // Neighbourhoods end at sharp edges, but not here: they reach farther where they are narrow.
-  constexpr std::size_t vertices = 2 * Noise_estimate::most_vertices;
+  constexpr std::size_t vertices = 2 * most_vertices_of_noise_trial;
   Tile_neighbourhoods result;
   Face_sampling sampling(mesh, result.faces);
   Face_patches patches(mesh);
@@ -410,7 +411,7 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_tiles(
     segment_of_face.push_back(segment_of_fragment.at(merged.fragments[tile][of_tile]));
   }
   std::vector<Analytic_surface> surfaces =
-      internal::Surfaces_of_segments(samples.mesh, segment_of_face, number_of_segments, samples.tolerance).surfaces();
+      internal::surfaces_in_unit_box(samples.mesh, segment_of_face, number_of_segments, samples.tolerance);
   for (Analytic_surface& surface : surfaces)
     surface = internal::out_of_box(surface, samples.mesh.unit(), samples.mesh.origin());
   return surfaces;

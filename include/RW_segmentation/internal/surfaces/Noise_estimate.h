@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/surfaces/Face_patches.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/noise_trials.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,29 +22,12 @@
 
 namespace RW_segmentation::internal {
 
-/// Faces about which noise is measured: some in the order of the faces, evenly.
-/// \param faces of a mesh or of a part of it
-/// \param faces_of_whole that part included; 400 to 800 of them are taken
-/// \param faces_before of the whole, before those of the part
-inline std::vector<Dual_mesh::Index> noise_trials(std::size_t faces, std::size_t faces_of_whole,
-                                                  std::size_t faces_before = 0) {
-  constexpr std::size_t trials = 400;
-  const std::size_t step = std::max<std::size_t>(1, faces_of_whole / trials);
-  std::vector<Dual_mesh::Index> chosen;
-  for (std::size_t f = (step - faces_before % step) % step; f < faces; f += step)
-    chosen.push_back(static_cast<Dual_mesh::Index>(f));
-  return chosen;
-}
-
 /// Estimates how far vertices are off their surfaces from what neighbourhoods of faces leave unexplained. Without noise
 /// some small ones lie on a surface exactly, if they avoid edges, even on a coarse mesh. Under noise none does, and
 /// larger ones vary less. Also tells what kind of noise it is.
 class Noise_estimate {
  public:
   using Index = Dual_mesh::Index;
-
-  /// Neighbourhoods have at most so many vertices.
-  static constexpr std::size_t most_vertices = 500;
 
   /// \param expected what neighbourhoods are to reckon with: they end at edges that it does not explain
   /// \param trials the faces that they are about
@@ -163,7 +147,7 @@ class Noise_estimate {
     constexpr double no_growth = 1.15;     // what it is for independent noise
     constexpr double correction = 1.15;    // from a low quantile of the best of five fits
     double last_growth = first_growth;
-    for (std::size_t vertices = 2 * many_vertices; vertices < most_vertices; vertices *= 2) {
+    for (std::size_t vertices = 2 * many_vertices; vertices < most_vertices_of_noise_trial; vertices *= 2) {
       const double growth = growth_to(vertices);
       if (growth <= no_growth) return correction * deviation_of(vertices);
       if (!(growth < last_growth)) break;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_FIND_ANALYTIC_REGIONS_H
+#define RW_SEGMENTATION_INTERNAL_DEFINITIONS_FIND_ANALYTIC_REGIONS_H
+
+#include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/surfaces/Face_refinement.h>
+#include <RW_segmentation/internal/surfaces/Region_borders.h>
+#include <RW_segmentation/internal/surfaces/Surface_growing.h>
+#include <RW_segmentation/internal/surfaces/Surface_proposals.h>
+#include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// The regions that `Surface_growing` and `Surface_proposals` find on the faces themselves.
+inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                         const Progress& progress) {
+  constexpr int most_proposals = 2;  // times: borders that have moved show others
+  Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
+  Region_borders(mesh, tolerance, regions).settle(progress);
+  if (!tolerance.may_have_independent_noise()) return regions;
+  const auto settle = [&] { Region_borders(mesh, tolerance, regions).settle(progress); };
+  for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).try_about_faces(progress); ++i)
+    settle();
+  if (Surface_proposals(mesh, tolerance, regions).try_for_regions(progress)) settle();
+  return regions;
+}
+
+/// The regions of the faces that triangles are part of: each takes the region that most of its area has.
+inline Analytic_regions carried_back(const Analytic_regions& triangles, const Face_refinement& refinement,
+                                     std::size_t number_of_faces) {
+  std::vector<std::map<std::size_t, double>> areas(number_of_faces);
+  for (std::size_t t = 0; t < refinement.faces().size(); ++t)
+    areas[refinement.faces()[t]][triangles.region_of_face[t]] += refinement.mesh().areas()[t];
+  const auto has_less = [](const auto& a, const auto& b) { return a.second < b.second; };
+  Analytic_regions regions;
+  regions.surfaces = triangles.surfaces;
+  for (const auto& area : areas)
+    regions.region_of_face.push_back(area.empty() ? Analytic_regions::none
+                                                  : std::max_element(area.begin(), area.end(), has_less)->first);
+  return regions;
+}
+
+/// The regions of the triangles that the faces are cut into, whose sides are not longer than a given length.
+inline Analytic_regions regions_of_triangles(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                             double longest_side, const Progress& progress) {
+  const Face_refinement refinement(mesh, longest_side);
+  return carried_back(regions_of_faces(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress), refinement,
+                      mesh.number_of_faces());
+}
+
+/// The length that triangles may have so that about `most` of them make up the faces, and at least `least`. Halved again
+/// and again, a triangle has a quarter of the square of its longest side.
+inline double side_of_triangles(const Dual_mesh& mesh, double least, double most) {
+  return std::max(least, 2 * std::sqrt(mesh.total_area() / most));
+}
+
+RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                                              const Progress& progress) {
+  constexpr double longest_side = 0.05;     // in parts of the diagonal
+  constexpr double most_triangles = 20000;  // solids have 5000 or so
+  const double side = side_of_triangles(mesh, longest_side, most_triangles);
+  const std::vector<double>& lengths = mesh.edge_lengths();
+  const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
+  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, progress);
+  Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, progress);
+  Region_borders(mesh, tolerance, regions).settle(progress);
+  return regions;
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif
