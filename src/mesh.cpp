@@ -23,5 +23,6 @@ namespace RW_segmentation::internal {
   template std::vector<std::vector<Surface_curvatures>> curvatures_of_faces<ConcurrencyTag>(                  \
       const Dual_mesh&, const std::vector<double>&, std::vector<Curvature_report>&, const Progress&);
 RW_SEGMENTATION_FOR_EACH_CONCURRENCY(RW_SEGMENTATION_INSTANTIATE)
+#undef RW_SEGMENTATION_INSTANTIATE
 
 }  // namespace RW_segmentation::internal

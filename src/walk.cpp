@@ -34,5 +34,6 @@ namespace RW_segmentation::internal {
                                                                           const std::vector<Dual_mesh::Index>&,        \
                                                                           const Progress&, Stage_clock::Time);
 RW_SEGMENTATION_FOR_EACH_CONCURRENCY(RW_SEGMENTATION_INSTANTIATE)
+#undef RW_SEGMENTATION_INSTANTIATE
 
 }  // namespace RW_segmentation::internal
