@@ -9,7 +9,7 @@
 #include "../mesh_files/read_content.h"
 #include "Options.h"
 
-#include <CLI/CLI.hpp>
+#include <CLI/Error.hpp>
 
 #include <unistd.h>
 

@@ -15,7 +15,7 @@
 #include "Options.h"
 #include "seeds.h"
 
-#include <CLI/CLI.hpp>
+#include <CLI/Error.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -11,7 +11,7 @@
 
 #include <RW_segmentation/Progress.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/Error.hpp>
 
 #include <cstdio>
 #include <exception>
