@@ -126,7 +126,7 @@ inline std::string Boundary_representation::defect() const {
 
 namespace internal {
 
-inline Boundary_face boundary_face(const brep::Shape_component& component, const brep::Distance_to_mesh& distance,
+inline Boundary_face boundary_face(const brep::Shape_component& component, brep::Distance_to_mesh& distance,
                                    std::size_t patch_number) {
   const auto& [mesh, building] = component;
   const brep::Patch& patch = building.patches()[patch_number];
@@ -176,7 +176,7 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
   Boundary_representation result;
   result.shape = nesting.shape();
   Boundary_report& report = result.report;
-  const brep::Distance_to_mesh distance(mesh, scale);
+  brep::Distance_to_mesh distance(mesh, scale);
   std::size_t missing_faces = 0;
   for (const brep::Shape_component& component : components) {
     for (std::size_t i = 0; i < component.building.patches().size(); ++i) {

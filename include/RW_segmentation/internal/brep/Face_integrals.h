@@ -189,6 +189,8 @@ class Face_integration {
             p.radius * (p.height_slope * across - p.radius_slope * along) / 3};
   }
 
+  /// From the middle of the surface, which most of a border is closer to than to its beginning: what depends on v alone adds
+  /// nothing along a closed border.
   Face_integrals on_spline(double u, double v) const {
     const auto element = [&](double s) -> Face_integrals {
       gp_Pnt p;
@@ -197,10 +199,11 @@ class Face_integration {
       const gp_Vec normal = along_u.Crossed(along_v);
       return {normal.Magnitude(), gp_Vec(kernel_point(apex_), p).Dot(normal) / 3};
     };
+    const auto [begin, end] = std::minmax({knots_[knots_.size() / 2], u});
     Face_integrals sum;
-    for (std::size_t i = 0; i + 1 < knots_.size() && knots_[i] < u; ++i)
-      sum += integral(knots_[i], std::min(u, knots_[i + 1]), element);
-    return sum;
+    for (std::size_t i = 0; i + 1 < knots_.size() && knots_[i] < end; ++i)
+      if (knots_[i + 1] > begin) sum += integral(std::max(begin, knots_[i]), std::min(end, knots_[i + 1]), element);
+    return end == u ? sum : sum * -1;
   }
 
   TopoDS_Face face_;  // its surface's way round

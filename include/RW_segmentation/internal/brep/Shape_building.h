@@ -30,7 +30,10 @@ class Shape_building {
   /// \param segment_of_triangle numbers of surfaces
   Shape_building(const Halfedge_triangles& mesh, const std::vector<Analytic_surface>& surfaces,
                  std::vector<std::size_t> segment_of_triangle, const Progress& progress)
-      : mesh_(mesh), has_joined_(mesh.number_of_triangles(), false), division_(mesh, surfaces) {
+      : mesh_(mesh),
+        has_joined_(mesh.number_of_triangles()),
+        has_taken_chords_(mesh.number_of_triangles()),
+        division_(mesh, surfaces) {
     absorb_slivers(mesh, surfaces, segment_of_triangle);
     std::vector<std::size_t> all(mesh.number_of_triangles());
     std::iota(all.begin(), all.end(), std::size_t(0));
@@ -90,13 +93,16 @@ class Shape_building {
   /// What helps a patch that was refused, the gentlest first.
   enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, join_free_form, become_triangles };
 
-  static Step next_step(const Patch& patch, const Rejection& rejection) {
+  Step next_step(const Patch& patch, const Rejection& rejection) {
     constexpr std::size_t too_few_to_halve = 3;
     const bool is_far = rejection.cause == Rejection::Cause::edge_far_from_surface;
     const bool takes_chords = rejection.cause == Rejection::Cause::face_not_valid && patch.triangles.size() > 2;
     if (patch.form == Form::surface && takes_chords) return Step::take_chords;
     if (!patch.is_free_form()) return is_far ? Step::leave_out_far_triangles : Step::become_free_form;
-    if (patch.form == Form::free_form && takes_chords) return Step::take_chords;
+    if (patch.form == Form::free_form && takes_chords && !has_taken_chords_[patch.triangles[0]]) {
+      for (const std::size_t t : patch.triangles) has_taken_chords_[t] = true;
+      return Step::take_chords;
+    }
     return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::join_free_form;
   }
 
@@ -190,7 +196,8 @@ class Shape_building {
   }
 
   const Halfedge_triangles& mesh_;
-  std::vector<char> has_joined_;  // by triangle: whether it was given to a free form
+  std::vector<char> has_joined_;        // by triangle: whether it was given to a free form
+  std::vector<char> has_taken_chords_;  // by triangle of free forms: once that did not help, it will not help a half
   Patch_division division_;
   std::vector<Patch> bases_, patches_;
   std::vector<std::size_t> base_of_;  // by patch

@@ -20,12 +20,14 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_TShape.hxx>
 #include <gp_Pnt2d.hxx>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <unordered_map>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
@@ -90,7 +92,7 @@ class Distance_to_mesh {
   Distance_to_mesh(const Dual_mesh& mesh, double scale) : mesh_(mesh), scale_(scale), tree_(mesh) {}
 
   /// The largest distance of points of a face, on its edges and on a grid inside it.
-  double of_face(const TopoDS_Face& face) const {
+  double of_face(const TopoDS_Face& face) {
     double largest = 0;
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
       largest = std::max(largest, of_edge(TopoDS::Edge(edge.Current())));
@@ -107,7 +109,14 @@ class Distance_to_mesh {
   }
 
  private:
-  double of_edge(const TopoDS_Edge& edge) const {
+  /// Measured once for both of its faces.
+  double of_edge(const TopoDS_Edge& edge) {
+    const auto [known, is_new] = of_edges_.try_emplace(edge.TShape().get(), 0.);
+    if (is_new) known->second = of_points_along(edge);
+    return known->second;
+  }
+
+  double of_points_along(const TopoDS_Edge& edge) const {
     constexpr int steps = 8;
     if (BRep_Tool::Degenerated(edge)) return 0;
     const BRepAdaptor_Curve curve(edge);
@@ -129,6 +138,7 @@ class Distance_to_mesh {
   const Dual_mesh& mesh_;
   double scale_;
   Triangle_tree tree_;
+  std::unordered_map<const TopoDS_TShape*, double> of_edges_;
 };
 
 }  // namespace RW_segmentation::internal::brep
