@@ -28,8 +28,8 @@ class Principal_axes {
   explicit Principal_axes(const Small_matrix& symmetric)
       : matrix_(symmetric), vectors_(Small_matrix::Identity(symmetric.rows(), symmetric.rows())) {
     constexpr int most_sweeps = 30;  // random matrices of 6 rows take 5
-    for (int sweep = 0; sweep < most_sweeps && rotate_all(); ++sweep) {
-    }
+    int sweeps = 0;
+    while (sweeps < most_sweeps && rotate_all()) ++sweeps;
     sort();
   }
 
