@@ -43,6 +43,7 @@ endif()
 
 # With less optimisation this compiles in two thirds of the time.
 add_executable(segment_mesh segment_mesh.cpp segment_mesh/tiles/run_tiles.cpp segment_mesh/read_by_assimp.cpp)
+# What it includes, nothing else does.
 set_source_files_properties(segment_mesh/read_by_assimp.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set_target_properties(segment_mesh PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 target_link_libraries(segment_mesh PRIVATE segment_mesh_work)

@@ -93,16 +93,14 @@ class Shape_building {
   /// What helps a patch that was refused, the gentlest first.
   enum class Step { take_chords, leave_out_far_triangles, become_free_form, halve, join_free_form, become_triangles };
 
-  Step next_step(const Patch& patch, const Rejection& rejection) {
+  Step next_step(const Patch& patch, const Rejection& rejection) const {
     constexpr std::size_t too_few_to_halve = 3;
     const bool is_far = rejection.cause == Rejection::Cause::edge_far_from_surface;
     const bool takes_chords = rejection.cause == Rejection::Cause::face_not_valid && patch.triangles.size() > 2;
     if (patch.form == Form::surface && takes_chords) return Step::take_chords;
     if (!patch.is_free_form()) return is_far ? Step::leave_out_far_triangles : Step::become_free_form;
-    if (patch.form == Form::free_form && takes_chords && !has_taken_chords_[patch.triangles[0]]) {
-      for (const std::size_t t : patch.triangles) has_taken_chords_[t] = true;
+    if (patch.form == Form::free_form && takes_chords && !has_taken_chords_[patch.triangles[0]])
       return Step::take_chords;
-    }
     return patch.triangles.size() > too_few_to_halve ? Step::halve : Step::join_free_form;
   }
 
@@ -163,6 +161,8 @@ class Shape_building {
     if (patch.triangles.empty()) return {};  // given to another
     switch (step) {
       case Step::take_chords:
+        if (patch.is_free_form())
+          for (const std::size_t t : patch.triangles) has_taken_chords_[t] = true;
         return division_.divided(patch.segment, patch.triangles,
                                  patch.is_free_form() ? Form::free_form_with_chords : Form::surface_with_chords);
       case Step::leave_out_far_triangles:
@@ -197,7 +197,7 @@ class Shape_building {
 
   const Halfedge_triangles& mesh_;
   std::vector<char> has_joined_;        // by triangle: whether it was given to a free form
-  std::vector<char> has_taken_chords_;  // by triangle of free forms: once that did not help, it will not help a half
+  std::vector<char> has_taken_chords_;  // by triangle: whether a free form of it did, which will not help its halves
   Patch_division division_;
   std::vector<Patch> bases_, patches_;
   std::vector<std::size_t> base_of_;  // by patch

@@ -9,6 +9,7 @@
 #include <RW_segmentation/internal/surfaces/Noise_estimate.h>
 #include <RW_segmentation/internal/surfaces/Surface_fit.h>
 #include <RW_segmentation/internal/surfaces/Surface_types.h>
+#include <RW_segmentation/internal/surfaces/noise_trials.h>
 
 #include <algorithm>
 #include <cmath>
