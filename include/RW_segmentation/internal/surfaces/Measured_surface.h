@@ -36,7 +36,7 @@ inline Small_matrix covariance_of(const Small_matrix& normal_matrix) {
     for (Eigen::Index j = 0; j < n; ++j) scaled(i, j) /= scale(i) * scale(j);
   const Principal_axes axes(scaled);
   const auto values = axes.values();
-  const Small_matrix vectors = axes.vectors();
+  const Small_matrix& vectors = axes.vectors();
   if (!(values[0] > determined * values[n - 1])) return covariance;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
