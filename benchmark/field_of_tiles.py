@@ -110,7 +110,9 @@ def make_field(folder: Path, meshes: list[Path], models: int, faces: int, grid: 
         angle = number * (3 - math.sqrt(5)) * math.pi  # no two alike
         turn = np.array([[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
         placed = points @ turn.T + PITCH * np.array([number % columns, number // columns, 0])
-        middles = placed[triangles, :2].mean(axis=1) / (PITCH * np.array([columns, rows])) + 0.5 / np.array([columns, rows])
+        middles = (placed[triangles, :2].mean(axis=1) / PITCH + 0.5) / np.array(
+            [columns, rows]
+        )  # in parts of the field
         cell = np.clip((middles * grid).astype(int), 0, np.array(grid) - 1)
         tile_of_face = cell[:, 1] * grid[0] + cell[:, 0]
         for tile in np.unique(tile_of_face):
@@ -130,8 +132,24 @@ def seconds_of_core(command: list[str]) -> float:
 def planned_minutes(steps: dict[str, Any], machines: int) -> float:
     """Tell how long so many machines would take."""
     at_a_time = machines * CORES_OF_MACHINE
-    rounds = {name: math.ceil(step["jobs"] / at_a_time) for name, step in steps.items()}
-    return sum(rounds[name] * step["seconds"] / max(step["jobs"], 1) for name, step in steps.items()) / 60
+    seconds = 0.0
+    for step in steps.values():
+        seconds += math.ceil(step["jobs"] / at_a_time) * step["seconds"] / max(step["jobs"], 1)
+    return seconds / 60
+
+
+def print_steps(steps: dict[str, Any], seconds: float) -> None:
+    """Print what each step took, and the plan."""
+    row = "{:10} {:>5} {:>18} {:>16}"
+    print(row.format("step", "jobs", "s of a core, each", "GB, largest job"))
+    for name, step in steps.items():
+        each = step["seconds"] / max(step["jobs"], 1)
+        print(row.format(name, step["jobs"], f"{each:.2f}", f"{step['largest_job_mb'] / 1000:.2f}"))
+    largest = max(step["largest_job_mb"] for step in steps.values())
+    print(row.format("all", "", f"{seconds:.1f}", f"{largest / 1000:.2f}"), end="\n\n")
+    for machines in (1, 10, 100):
+        minutes = planned_minutes(steps, machines)
+        print(f"{machines} machines of {CORES_OF_MACHINE} cores, by plan: {minutes:.1f} minutes")
 
 
 def main() -> int:
@@ -160,25 +178,16 @@ def main() -> int:
     subprocess.run(command, check=True)
     seconds = time.monotonic() - start
     report = json.loads(report_path.read_text())
-
-    steps = report["steps"]
     print(f"{len(tiles)} tiles, {report['faces']} faces, {len(report['segments'])} segments, {seconds:.0f} s\n")
-    print(f"{'step':10} {'jobs':>5} {'s of a core, each':>18} {'GB, largest job':>16}")
-    for name, step in steps.items():
-        print(
-            f"{name:10} {step['jobs']:5} {step['seconds'] / max(step['jobs'], 1):18.2f} {step['largest_job_mb'] / 1000:16.2f}"
-        )
-    all_steps = sum(step["seconds"] for step in steps.values())
-    print(f"{'all':10} {'':5} {all_steps:18.1f} {max(step['largest_job_mb'] for step in steps.values()) / 1000:16.2f}\n")
-    for machines in (1, 10, 100):
-        print(f"{machines} machines of {CORES_OF_MACHINE} cores, by plan: {planned_minutes(steps, machines):.1f} minutes")
+    seconds_of_steps = sum(step["seconds"] for step in report["steps"].values())
+    print_steps(report["steps"], seconds_of_steps)
 
-    alone = [
-        seconds_of_core([arguments.tool, tile, "--quiet", "--labels", str(folder / "alone.seg")])
-        for tile in tiles[:: max(1, len(tiles) // arguments.alone)][: arguments.alone]
-    ]
-    sum_alone = len(tiles) * sum(alone) / len(alone)
-    print(f"\ntiles as meshes of their own, by {len(alone)}: {sum_alone:.0f} s; all steps take {all_steps / sum_alone:.2f} of it")
+    chosen = tiles[:: max(1, len(tiles) // arguments.alone)][: arguments.alone]
+    command_alone = [arguments.tool, "--quiet", "--labels", str(folder / "alone.seg")]
+    alone = [seconds_of_core([*command_alone, tile]) for tile in chosen]
+    seconds_alone = len(tiles) * sum(alone) / len(alone)
+    print(f"\ntiles as meshes of their own, by {len(alone)} of them: {seconds_alone:.0f} s of a core", end="; ")
+    print(f"all steps take {seconds_of_steps / seconds_alone:.2f} of it")
     return 0
 
 
