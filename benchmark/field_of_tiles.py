@@ -8,7 +8,7 @@ The table has the steps of the tool's report; a plan for more machines follows f
 tiles are segmented as meshes of their own: what all steps take of a core beyond that is the price of borders.
 
 Usage: field_of_tiles.py TOOL FOLDER MESH.off [MESH.off ...] [--models 180] [--faces 1048576] [--tiles 10x5] [--workers 2]
-Needs NumPy, and on disk 170 bytes a face in FOLDER. What is there already is not made again.
+Needs NumPy, and on disk 150 bytes a face in FOLDER. What is there already is not made again.
 """
 
 from __future__ import annotations
