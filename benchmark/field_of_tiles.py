@@ -8,7 +8,7 @@ The table has the steps of the tool's report; a plan for more machines follows f
 tiles are segmented as meshes of their own: what all steps take of a core beyond that is the price of borders.
 
 Usage: field_of_tiles.py TOOL FOLDER MESH.off [MESH.off ...] [--models 180] [--faces 1048576] [--tiles 10x5] [--workers 2]
-Needs NumPy, and on disk 150 bytes a face in FOLDER. What is there already is not made again.
+Needs NumPy, and on disk 150 bytes a face in FOLDER.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import argparse
 import json
 import math
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -99,8 +100,8 @@ class Tile:
         unfinished.rename(self.path)
 
 
-def make_field(folder: Path, meshes: list[Path], models: int, faces: int, grid: tuple[int, int]) -> None:
-    """Write the tiles."""
+def make_field(folder: Path, meshes: list[Path], models: int, faces: int, grid: tuple[int, int]) -> list[str]:
+    """Write the tiles, and tell their paths."""
     columns = math.ceil(math.sqrt(models * grid[0] / grid[1]))
     rows = math.ceil(models / columns)
     tiles = [Tile(folder, number) for number in range(grid[0] * grid[1])]
@@ -119,6 +120,7 @@ def make_field(folder: Path, meshes: list[Path], models: int, faces: int, grid: 
             tiles[tile].add(placed, triangles[tile_of_face == tile])
     for tile in tiles:
         tile.finish()
+    return [str(tile.path) for tile in tiles]
 
 
 def seconds_of_core(command: list[str]) -> float:
@@ -168,12 +170,11 @@ def main() -> int:
     folder.mkdir(parents=True, exist_ok=True)
     columns, rows = (int(number) for number in arguments.tiles.split("x"))
 
-    if not (folder / f"tile_{columns * rows - 1:03}.ply").exists():
-        make_field(folder, arguments.meshes, arguments.models, arguments.faces, (columns, rows))
-    tiles = sorted(str(path) for path in folder.glob("tile_*.ply"))
-    report_path = folder / "report.json"
+    tiles = make_field(folder, arguments.meshes, arguments.models, arguments.faces, (columns, rows))
+    work_folder, report_path = folder / "work", folder / "report.json"
+    shutil.rmtree(work_folder, ignore_errors=True)  # steps that are done there would not be done again
     command = [arguments.tool, *tiles, "--tiled", "--quiet", "--workers", str(arguments.workers)]
-    command += ["--tile-folder", str(folder / "work"), "--labels", str(folder / "%.seg"), "--report", str(report_path)]
+    command += ["--tile-folder", str(work_folder), "--labels", str(folder / "%.seg"), "--report", str(report_path)]
     start = time.monotonic()
     subprocess.run(command, check=True)
     seconds = time.monotonic() - start

@@ -19,7 +19,8 @@ using Small_vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;
 /// The eigenvalues and eigenvectors of a symmetric matrix, the least first, by Jacobi's cyclic rotations (Golub and Van Loan,
 /// Matrix Computations, 8.5).
 ///
-/// For few rows as fast as Eigen's solver, and compiled in a twentieth of its time of 4 s.
+/// 6 rows take 1.9 microseconds, by Eigen's solver for any number of rows 1.4; but that takes 4 s to compile, a twentieth of
+/// which this takes.
 class Principal_axes {
  public:
   using Index = Eigen::Index;
