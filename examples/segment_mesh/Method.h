@@ -166,6 +166,7 @@ struct Method {
   bool are_seeds_exact = false;         ///< whether a number of coarse seeds that cannot be had is an error
   std::optional<std::size_t> segments;  ///< without it as many as the shape suggests
   std::size_t seedings = 1;             ///< whose consensus is taken
+  bool by_component = false;            ///< each connected component as it is by itself
 };
 
 /// The angles that make faces differ where fragments are merged.
@@ -201,6 +202,7 @@ struct Choices {
   std::optional<Solver> solver;
   std::optional<double> smoothing, convex_weight, radius, sigma, cap;
   std::optional<RW_segmentation::Dihedral_measure> measure;
+  std::optional<bool> by_component;
 };
 
 /// The angles that make faces differ, by the user's numbers where they are given.
@@ -254,6 +256,9 @@ inline Method method_of(const Choices& choices, bool are_seeds_segments) {
     method.seeds = choices.is_coarse ? *choices.segments : 2 * *choices.segments;
   }
   method.are_seeds_exact = choices.is_coarse || choices.automatic_seeds;
+  // A number of coarse seeds is that of the segments of the whole.
+  const bool is_number_of_whole = method.seeding == Seeding::coarse && method.seeds;
+  method.by_component = choices.by_component.value_or(!choices.is_paper && !is_number_of_whole);
   return method;
 }
 
@@ -327,6 +332,7 @@ inline Policies policies_of(const Method& method) {
   policies.solver = Chosen_solver(method.solver);
   policies.merge_cost = merge_cost_function(method);
   policies.seedings = method.seedings;
+  policies.by_component = method.by_component;
   policies.stop =
       method.segments ? RW_segmentation::Segment_count_stop(*method.segments) : stop_by_shape(method.merge_cost);
   return policies;

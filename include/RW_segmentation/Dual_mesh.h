@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/mesh/Face_corners.h>
 #include <RW_segmentation/internal/mesh/Face_geometry.h>
 #include <RW_segmentation/internal/mesh/Mesh_reading.h>
+#include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/named_parameters.h>
 #include <RW_segmentation/internal/property_maps.h>
 
@@ -143,6 +144,11 @@ class Dual_mesh {
   /// \param area_of_whole in the unit box
   Dual_mesh as_part_of(double area_of_whole) const;
 
+  /// A connected component as a mesh of its own, measured in a unit box of its own.
+  /// \param component one of `internal::connected_stretches()`
+  /// Complexity: linear in its size.
+  Dual_mesh component(const internal::Mesh_stretch& component) const;
+
  private:
   internal::Unit_box box_;
   bool is_part_ = false;
@@ -243,12 +249,26 @@ class Dual_mesh_of : public Dual_mesh {
                                      const NamedParameters& np = CGAL::parameters::default_values()) {
     const auto descriptors = std::make_shared<internal::Descriptors<FaceListGraph>>();
     Arrays arrays = arrays_of(internal::Mesh_reading<FaceListGraph>(mesh, false), mesh, np, *descriptors);
-    return {std::move(arrays), mesh, descriptors};
+    return {Dual_mesh(std::move(arrays)), mesh, descriptors};
   }
 
   /// A dual mesh with the same graph as another one, and that one's descriptors.
   Dual_mesh_of(Dual_mesh mesh, const Dual_mesh_of& other)
       : Dual_mesh(std::move(mesh)), mesh_(other.mesh_), descriptors_(other.descriptors_) {}
+
+  /// A connected component as a mesh of its own, as above.
+  Dual_mesh_of component(const internal::Mesh_stretch& component) const {
+    const auto descriptors = std::make_shared<Descriptors>();
+    const auto stretch = [](const auto& of_all, Index first, Index count) {
+      const auto begin = of_all.begin() + static_cast<std::ptrdiff_t>(first);
+      return std::decay_t<decltype(of_all)>(begin, begin + static_cast<std::ptrdiff_t>(count));
+    };
+    descriptors->face_descriptors = stretch(face_descriptors(), component.first_face, component.faces);
+    descriptors->edge_descriptors = stretch(edge_descriptors(), component.first_edge, component.edges);
+    descriptors->index = descriptors_->index;
+    descriptors->first_face = descriptors_->first_face + component.first_face;
+    return {Dual_mesh::component(component), *mesh_, descriptors};
+  }
 
   /// The mesh that was read.
   const FaceListGraph& mesh() const { return *mesh_; }
@@ -262,7 +282,11 @@ class Dual_mesh_of : public Dual_mesh {
   /// By number.
   const std::vector<edge_descriptor>& edge_descriptors() const { return descriptors_->edge_descriptors; }
   /// The number of a face, `none` if the mesh has no such face.
-  Index index(face_descriptor f) const { return descriptors_->index[f]; }
+  Index index(face_descriptor f) const {
+    const Index number = (*descriptors_->index)[f];  // of the whole mesh; less than the first one wraps round
+    const auto place = static_cast<Index>(number - descriptors_->first_face);
+    return number != none && place < number_of_faces() ? place : none;
+  }
   /// The place of a face in the order of `faces(mesh)`, by which errors name it.
   /// Complexity: linear.
   Index place(Index face) const {
@@ -339,13 +363,13 @@ class Dual_mesh_of : public Dual_mesh {
  private:
   using Descriptors = internal::Descriptors<FaceListGraph>;
 
-  Dual_mesh_of(Arrays arrays, const FaceListGraph& mesh, std::shared_ptr<const Descriptors> descriptors)
-      : Dual_mesh(std::move(arrays)), mesh_(&mesh), descriptors_(std::move(descriptors)) {}
+  Dual_mesh_of(Dual_mesh dual, const FaceListGraph& mesh, std::shared_ptr<const Descriptors> descriptors)
+      : Dual_mesh(std::move(dual)), mesh_(&mesh), descriptors_(std::move(descriptors)) {}
 
   template <class NamedParameters>
   Dual_mesh_of(const FaceListGraph& mesh, const NamedParameters& np, const std::shared_ptr<Descriptors>& descriptors)
-      : Dual_mesh_of(arrays_of(internal::Mesh_reading<FaceListGraph>(mesh, true), mesh, np, *descriptors), mesh,
-                     descriptors) {}
+      : Dual_mesh_of(Dual_mesh(arrays_of(internal::Mesh_reading<FaceListGraph>(mesh, true), mesh, np, *descriptors)),
+                     mesh, descriptors) {}
 
   template <class NamedParameters>
   static Arrays arrays_of(internal::Mesh_reading<FaceListGraph> reading, const FaceListGraph& mesh,

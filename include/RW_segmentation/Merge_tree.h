@@ -101,6 +101,15 @@ class Cost_jump_stop {
   double increase_;
 };
 
+namespace internal {
+
+/// The trees of several meshes as one, their fragments one mesh after the other. Merges of the least cost come first; one
+/// that costs less than those before it in its own tree comes with the dearest of them. So whatever stops at a cost takes
+/// from each tree what it takes from that alone.
+/// Complexity: O(m log m) for m merges.
+Merge_tree side_by_side(const std::vector<Merge_tree>& trees);
+
+}  // namespace internal
 }  // namespace RW_segmentation
 
 #ifndef RW_SEGMENTATION_COMPILED

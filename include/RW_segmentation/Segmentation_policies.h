@@ -54,6 +54,10 @@ struct Segmentation_policies {
   /// is 1 where it is as well to merge as not to. Walks run over the faces once, then over about a thousand clusters of faces.
   /// Memory grows with the square of the number of seeds. Policies with another seeding or merge cost have 1 again.
   std::size_t seedings = 1;
+  /// Whether each connected component is segmented as it is by itself, whatever else there is: what is large or far, and how
+  /// many seeds there are, is told by that component alone. Otherwise it is told by the whole mesh, small components are
+  /// small parts of it, and seeds are those of the whole. Walls do not part components.
+  bool by_component = false;
 
   /// These policies with another difference.
   template <class Other>
@@ -85,7 +89,7 @@ struct Segmentation_policies {
   template <class D, class S, class W, class M, class P>
   Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p, std::size_t times) const {
     return {smoothing,    std::move(d), sigma,        cap,          std::move(s),
-            std::move(w), reduction,    std::move(m), std::move(p), times};
+            std::move(w), reduction,    std::move(m), std::move(p), times, by_component};
   }
 };
 

@@ -134,6 +134,53 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
   return merged;
 }
 
+/// Puts segmentations of connected components together.
+class Segmented_components {
+ public:
+  /// \param number_of_faces of the whole mesh
+  explicit Segmented_components(std::size_t number_of_faces);
+
+  /// Adds that of the next component, in the order of the faces.
+  void add(Merged_fragments component);
+
+  /// That of the whole mesh.
+  Merged_fragments whole() &&;
+
+ private:
+  void add_report(const Segmentation_report& component);
+
+  std::vector<Merge_tree> trees_;
+  Merged_fragments whole_;
+  std::size_t fragments_ = 0;
+};
+
+/// The seeds in each component, as numbers of its faces.
+std::vector<std::vector<Dual_mesh::Index>> seeds_of_components(const std::vector<Mesh_stretch>& components,
+                                                               const std::vector<Dual_mesh::Index>& seeds);
+
+/// As above, each connected component as it is by itself where the policies say so.
+template <class ConcurrencyTag, class Mesh, class Policies>
+Merged_fragments segment_components_by_policies(const Mesh& mesh, const Policies& policies,
+                                                const std::vector<Dual_mesh::Index>& given, const Progress& progress,
+                                                Stage_clock::Time begin) {
+  std::vector<Mesh_stretch> components;
+  if (policies.by_component) components = connected_stretches(mesh.graph());
+  if (components.size() <= 1) return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
+  Segmented_components segmented(mesh.number_of_faces());
+  const auto seeds = seeds_of_components(components, given);
+  const auto share = [&](std::size_t faces) {
+    return static_cast<double>(faces) / static_cast<double>(mesh.number_of_faces());
+  };
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const std::size_t first = components[i].first_face;
+    const Progress part = progress.part(share(first), share(first + components[i].faces));
+    segmented.add(
+        segment_by_policies<ConcurrencyTag>(mesh.component(components[i]), policies, seeds[i], part, begin));
+    begin = Stage_clock::now();
+  }
+  return std::move(segmented).whole();
+}
+
 /// By the library's own policies, which ask for no descriptors.
 template <class ConcurrencyTag>
 Merged_fragments segment_by_automatic_policies(const Dual_mesh& mesh, const Automatic_policies& policies,
@@ -149,7 +196,7 @@ Merged_fragments merged_fragments(const Dual_mesh_of<FaceListGraph>& mesh, const
   if constexpr (std::is_convertible_v<const Policies*, const Automatic_policies*>)
     return segment_by_automatic_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
   else
-    return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
+    return segment_components_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
 }
 
 /// The segment of each face where merging stops at a number of segments.

@@ -21,6 +21,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -110,6 +111,45 @@ RW_SEGMENTATION_INLINE Dual_mesh with_stored_normals(const Dual_mesh& mesh) {
   return mesh.has_shape_normals() ? mesh : mesh.with_shape_normals(own_normals(mesh));
 }
 
+/// Numbers for the vertices of a connected component, in the order in which they are asked for.
+class Vertex_numbers {
+ public:
+  using Index = Dual_mesh::Index;
+
+  Vertex_numbers(const Dual_mesh& mesh, const Mesh_stretch& component) {
+    std::size_t corners = 0;
+    Index last = 0;
+    for (Index f = component.first_face; f < component.first_face + component.faces; ++f)
+      for (const Index vertex : mesh.corners(f)) {
+        ++corners;
+        last = std::max(last, vertex);
+      }
+    const auto span = static_cast<Index>(std::min<std::size_t>(corners, last + std::size_t(1)));
+    first_ = last - span + 1;
+    number_.assign(span, none);
+  }
+
+  Index operator[](Index vertex) {
+    Index& number = vertex >= first_ ? number_[vertex - first_] : number_of_shared_.try_emplace(vertex, none).first->second;
+    if (number == none) {
+      number = static_cast<Index>(vertices_.size());
+      vertices_.push_back(vertex);
+    }
+    return number;
+  }
+
+  /// By number.
+  const std::vector<Index>& vertices() const { return vertices_; }
+
+ private:
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  Index first_ = 0;
+  std::vector<Index> number_;  // of the vertices from `first_` on: of all but those that an earlier component has as well
+  std::unordered_map<Index, Index> number_of_shared_;
+  std::vector<Index> vertices_;
+};
+
 }  // namespace internal
 
 RW_SEGMENTATION_INLINE Dual_mesh::Dual_mesh(Arrays arrays, const internal::Unit_box* points_in_box) {
@@ -158,6 +198,40 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::as_part_of(double area_of_whole) con
   Dual_mesh result = *this;
   result.is_part_ = true;
   result.area_of_whole_ = area_of_whole;
+  return result;
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::component(const internal::Mesh_stretch& component) const {
+  const auto& [first_face, faces, first_edge, edges] = component;
+  Arrays arrays;
+  internal::Vertex_numbers numbers(*this, component);
+  arrays.corners.reserve(faces, std::size_t(3) * faces);
+  for (Index f = first_face; f < first_face + faces; ++f) {
+    for (const Index vertex : corners(f)) arrays.corners.add(numbers[vertex]);
+    arrays.corners.end_face();
+  }
+  std::vector<std::array<Index, 2>> sides;
+  sides.reserve(edges);
+  arrays.edge_ends.reserve(edges);
+  for (Index e = first_edge; e < first_edge + edges; ++e) {
+    const auto& [f, g] = graph().faces_of(e);
+    sides.push_back({f - first_face, g - first_face});
+    arrays.edge_ends.push_back({numbers[ends(e)[0]], numbers[ends(e)[1]]});
+  }
+  for (const Index vertex : numbers.vertices()) arrays.points.push_back(point(vertex));
+  arrays.graph = Dual_graph(faces, std::move(sides));
+  if (has_walls()) arrays.is_wall.assign(is_wall_->begin() + first_edge, is_wall_->begin() + first_edge + edges);
+
+  internal::Unit_box box(arrays.points);
+  for (Eigen::Vector3d& p : arrays.points) p = box.scaled(p);
+  box.rounding = std::max(box.rounding, box_.rounding / box.unit);
+  box.origin = box_.origin + box_.unit * box.origin;
+  box.unit *= box_.unit;
+  Dual_mesh result(std::move(arrays), &box);
+  if (has_shape_normals()) {
+    const auto begin = shape_normals_->begin() + first_face;
+    result = result.with_shape_normals({begin, begin + faces});
+  }
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation {
@@ -100,6 +101,42 @@ RW_SEGMENTATION_INLINE std::size_t Cost_jump_stop::operator()(const Merge_tree& 
   return segments;
 }
 
+namespace internal {
+
+RW_SEGMENTATION_INLINE Merge_tree side_by_side(const std::vector<Merge_tree>& trees) {
+  struct Next {
+    double dearest;          // of the merges of its tree up to this one
+    std::size_t tree, merge;  // places
+  };
+  std::vector<Next> order;
+  std::vector<std::size_t> first_fragment, first_merge;  // by tree
+  std::size_t fragments = 0;
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    first_fragment.push_back(fragments);
+    first_merge.push_back(order.size());
+    fragments += trees[t].number_of_fragments();
+    double dearest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < trees[t].merges().size(); ++i)
+      order.push_back({dearest = std::max(dearest, trees[t].merges()[i].cost), t, i});
+  }
+  std::stable_sort(order.begin(), order.end(), [](const Next& a, const Next& b) { return a.dearest < b.dearest; });
+
+  std::vector<std::size_t> region_of_merge(order.size());  // tree by tree
+  std::vector<Merge_tree::Merge> merges;
+  merges.reserve(order.size());
+  for (const auto& [dearest, t, i] : order) {
+    const auto region = [&, t = t](std::size_t of_tree) {
+      const std::size_t own = trees[t].number_of_fragments();
+      return of_tree < own ? first_fragment[t] + of_tree : region_of_merge[first_merge[t] + of_tree - own];
+    };
+    const auto& [first, second, cost] = trees[t].merges()[i];
+    region_of_merge[first_merge[t] + i] = fragments + merges.size();
+    merges.push_back({region(first), region(second), cost});
+  }
+  return {fragments, std::move(merges)};
+}
+
+}  // namespace internal
 }  // namespace RW_segmentation
 
 #endif

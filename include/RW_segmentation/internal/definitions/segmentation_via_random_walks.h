@@ -7,7 +7,9 @@
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -30,11 +32,60 @@ RW_SEGMENTATION_INLINE void require_seedings(std::size_t seedings) {
   if (seedings == 0) throw argument_error("seedings", seedings, "at least 1");
 }
 
+// ---- Components ----
+
+RW_SEGMENTATION_INLINE Segmented_components::Segmented_components(std::size_t number_of_faces) {
+  whole_.fragment_of_face.reserve(number_of_faces);
+}
+
+RW_SEGMENTATION_INLINE void Segmented_components::add(Merged_fragments component) {
+  for (const std::size_t fragment : component.fragment_of_face)
+    whole_.fragment_of_face.push_back(fragments_ + fragment);
+  fragments_ += component.tree.number_of_fragments();
+  trees_.push_back(std::move(component.tree));
+  add_report(component.report);
+}
+
+RW_SEGMENTATION_INLINE void Segmented_components::add_report(const Segmentation_report& component) {
+  Segmentation_report& report = whole_.report;
+  report.components += component.components;
+  report.seeds += component.seeds;
+  report.clusters += component.clusters;
+  report.fragments += component.fragments;
+  report.degenerate_faces += component.degenerate_faces;
+  report.island_faces += component.island_faces;
+  report.has_heavy_noise |= component.has_heavy_noise;
+  for (const Segmentation_report::Stage& stage : component.stages) {
+    const auto same = std::find_if(report.stages.begin(), report.stages.end(),
+                                   [&](const Segmentation_report::Stage& s) { return s.name == stage.name; });
+    if (same == report.stages.end())
+      report.stages.push_back(stage);
+    else
+      same->seconds += stage.seconds;
+  }
+}
+
+RW_SEGMENTATION_INLINE Merged_fragments Segmented_components::whole() && {
+  whole_.tree = side_by_side(trees_);
+  return std::move(whole_);
+}
+
+RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> seeds_of_components(
+    const std::vector<Mesh_stretch>& components, const std::vector<Dual_mesh::Index>& seeds) {
+  std::vector<std::vector<Dual_mesh::Index>> result(components.size());
+  for (const Dual_mesh::Index seed : seeds) {
+    const auto after = std::upper_bound(components.begin(), components.end(), seed,
+                                        [](Dual_mesh::Index face, const Mesh_stretch& c) { return face < c.first_face; });
+    result[static_cast<std::size_t>(after - components.begin()) - 1].push_back(seed - (after - 1)->first_face);
+  }
+  return result;
+}
+
 template <class ConcurrencyTag>
 Merged_fragments segment_by_automatic_policies(const Dual_mesh& mesh, const Automatic_policies& policies,
                                                const std::vector<Dual_mesh::Index>& given, const Progress& progress,
                                                Stage_clock::Time begin) {
-  return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
+  return segment_components_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
 }
 
 }  // namespace RW_segmentation::internal

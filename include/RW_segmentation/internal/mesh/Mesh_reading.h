@@ -13,11 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
 
-/// The descriptors of a mesh by their numbers, and back.
+/// The descriptors of a mesh by their numbers, and back. Those of a component share the numbers of the whole mesh.
 template <class FaceListGraph>
 struct Descriptors {
   using face_descriptor = typename boost::graph_traits<FaceListGraph>::face_descriptor;
@@ -25,7 +27,8 @@ struct Descriptors {
 
   std::vector<face_descriptor> face_descriptors;
   std::vector<edge_descriptor> edge_descriptors;
-  Descriptor_index<face_descriptor> index;
+  std::shared_ptr<const Descriptor_index<face_descriptor>> index;  ///< of the whole mesh
+  Dual_graph::Index first_face = 0;                                ///< the number of the first face in it
 };
 
 /// Reads a mesh in one breadth-first pass over its faces, which gives them their numbers.
@@ -55,7 +58,7 @@ class Mesh_reading {
     reserve();
     std::size_t next = 0;
     for (const face_descriptor start : faces(mesh)) {
-      if (descriptors.index[start] == none) number_face(start);
+      if (face_index_[start] == none) number_face(start);
       while (next < descriptors.face_descriptors.size()) {
         const std::size_t count = std::min(batch_.size(), descriptors.face_descriptors.size() - next);
         read_batch(next, count);
@@ -63,6 +66,7 @@ class Mesh_reading {
         next += count;
       }
     }
+    descriptors.index = std::make_shared<const Descriptor_index<face_descriptor>>(std::move(face_index_));
   }
 
  private:
@@ -87,7 +91,7 @@ class Mesh_reading {
     check_number(2 * std::size_t(num_edges(mesh_)), "halfedges");
     check_number(num_vertices(mesh_), "vertices");
     descriptors.face_descriptors.reserve(num_faces(mesh_));
-    descriptors.index.reserve(num_faces(mesh_));
+    face_index_.reserve(num_faces(mesh_));
     descriptors.edge_descriptors.reserve(num_edges(mesh_));
     sides.reserve(num_edges(mesh_));
     if constexpr (!Has_integer<edge_descriptor>::value) {
@@ -104,7 +108,7 @@ class Mesh_reading {
 
   Index number_face(face_descriptor face) {
     const auto number = static_cast<Index>(descriptors.face_descriptors.size());
-    descriptors.index.insert(face, number);
+    face_index_.insert(face, number);
     descriptors.face_descriptors.push_back(face);
     return number;
   }
@@ -140,7 +144,7 @@ class Mesh_reading {
       if (with_vertices_) side.target = target(side.halfedge, mesh_);
     });
     for_each_side(count, [&](Side& side) {
-      if (side.opposite_face != Traits::null_face()) side.opposite_number = descriptors.index[side.opposite_face];
+      if (side.opposite_face != Traits::null_face()) side.opposite_number = face_index_[side.opposite_face];
       if (with_vertices_) side.target_number = vertex_index_[side.target];
     });
   }
@@ -159,7 +163,7 @@ class Mesh_reading {
     for (const Side& side : sides_of_face) {
       if (side.opposite_face == Traits::null_face()) continue;
       Index other = side.opposite_number;
-      if (other == none) other = descriptors.index[side.opposite_face];
+      if (other == none) other = face_index_[side.opposite_face];
       if (other == none) other = number_face(side.opposite_face);
       if (other > face) add_edge(face, other, side);
     }
@@ -192,6 +196,7 @@ class Mesh_reading {
 
   const FaceListGraph& mesh_;
   bool with_vertices_;
+  Descriptor_index<face_descriptor> face_index_;
   Descriptor_index<vertex_descriptor> vertex_index_;
   Descriptor_index<edge_descriptor> edge_place_;  // where edges hold no integer
   std::array<std::vector<Side>, faces_in_batch> batch_;

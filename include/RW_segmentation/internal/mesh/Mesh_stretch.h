@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef RW_SEGMENTATION_INTERNAL_MESH_MESH_STRETCH_H
+#define RW_SEGMENTATION_INTERNAL_MESH_MESH_STRETCH_H
+
+#include <RW_segmentation/Dual_graph.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace RW_segmentation::internal {
+
+/// Faces and edges of a mesh that follow each other in their numbers.
+struct Mesh_stretch {
+  Dual_graph::Index first_face = 0, faces = 0;
+  Dual_graph::Index first_edge = 0, edges = 0;
+};
+
+/// The connected components of a mesh that has been read, across walls: `Mesh_reading` numbers them one after the other.
+/// Complexity: linear.
+inline std::vector<Mesh_stretch> connected_stretches(const Dual_graph& graph) {
+  std::vector<Mesh_stretch> stretches;
+  Mesh_stretch open;
+  Dual_graph::Index last = 0;  // of the faces that those of the open stretch lead to
+  for (Dual_graph::Index f = 0; f < graph.number_of_faces(); ++f) {
+    ++open.faces;
+    last = std::max(last, f);
+    for (const auto& [next, edge] : graph.neighbours(f)) {
+      if (next > f) ++open.edges;
+      last = std::max(last, next);
+    }
+    if (last > f) continue;
+    stretches.push_back(open);
+    open = {open.first_face + open.faces, 0, open.first_edge + open.edges, 0};
+  }
+  return stretches;
+}
+
+}  // namespace RW_segmentation::internal
+
+#endif
