@@ -54,10 +54,12 @@ struct Segmentation_policies {
   /// is 1 where it is as well to merge as not to. Walks run over the faces once, then over about a thousand clusters of faces.
   /// Memory grows with the square of the number of seeds. Policies with another seeding or merge cost have 1 again.
   std::size_t seedings = 1;
-  /// Whether each connected component is segmented as it is by itself, whatever else there is: what is large or far, and how
-  /// many seeds there are, is told by that component alone. Otherwise it is told by the whole mesh, small components are
-  /// small parts of it, and seeds are those of the whole. Walls do not part components.
+  /// Whether each connected component, across walls, is segmented as it is by itself: that component alone tells what is
+  /// large in it, and all seeds are placed in each. Otherwise the whole mesh tells, and it has as many seeds in all.
   bool by_component = false;
+  /// The area below which a component is one segment by that, as a share of that of the largest one; unless it holds walls
+  /// or given seeds. 0: none is. The debris of a scan, of less than a hundredth, would be cut into pieces of a few faces.
+  double least_component = 0.01;
 
   /// These policies with another difference.
   template <class Other>
@@ -89,7 +91,7 @@ struct Segmentation_policies {
   template <class D, class S, class W, class M, class P>
   Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p, std::size_t times) const {
     return {smoothing,    std::move(d), sigma,        cap,          std::move(s),
-            std::move(w), reduction,    std::move(m), std::move(p), times, by_component};
+            std::move(w), reduction,    std::move(m), std::move(p), times, by_component, least_component};
   }
 };
 

@@ -158,6 +158,15 @@ class Segmented_components {
 std::vector<std::vector<Dual_mesh::Index>> seeds_of_components(const std::vector<Mesh_stretch>& components,
                                                                const std::vector<Dual_mesh::Index>& seeds);
 
+/// The area of each component.
+std::vector<double> areas_of(const std::vector<Mesh_stretch>& components, const Dual_mesh& mesh);
+
+/// Whether an edge of a component is a wall.
+bool has_walls(const Mesh_stretch& component, const Dual_mesh& mesh);
+
+/// A component that is one segment.
+Merged_fragments one_segment(const Mesh_stretch& component, const Dual_mesh& mesh);
+
 /// As above, each connected component as it is by itself where the policies say so.
 template <class ConcurrencyTag, class Mesh, class Policies>
 Merged_fragments segment_components_by_policies(const Mesh& mesh, const Policies& policies,
@@ -166,18 +175,27 @@ Merged_fragments segment_components_by_policies(const Mesh& mesh, const Policies
   std::vector<Mesh_stretch> components;
   if (policies.by_component) components = connected_stretches(mesh.graph());
   if (components.size() <= 1) return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
-  Segmented_components segmented(mesh.number_of_faces());
+
+  const std::vector<double> area = areas_of(components, mesh);
+  const double least_area = policies.least_component * *std::max_element(area.begin(), area.end());
   const auto seeds = seeds_of_components(components, given);
   const auto share = [&](std::size_t faces) {
     return static_cast<double>(faces) / static_cast<double>(mesh.number_of_faces());
   };
+  Segmented_components segmented(mesh.number_of_faces());
   for (std::size_t i = 0; i < components.size(); ++i) {
     const std::size_t first = components[i].first_face;
     const Progress part = progress.part(share(first), share(first + components[i].faces));
-    segmented.add(
-        segment_by_policies<ConcurrencyTag>(mesh.component(components[i]), policies, seeds[i], part, begin));
-    begin = Stage_clock::now();
+    if (area[i] >= least_area || !seeds[i].empty() || has_walls(components[i], mesh)) {
+      segmented.add(
+          segment_by_policies<ConcurrencyTag>(mesh.component(components[i]), policies, seeds[i], part, begin));
+      begin = Stage_clock::now();
+    } else {
+      part(0);
+      segmented.add(one_segment(components[i], mesh));
+    }
   }
+  progress(1);
   return std::move(segmented).whole();
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,32 @@ RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> seeds_of_compo
     result[static_cast<std::size_t>(after - components.begin()) - 1].push_back(seed - (after - 1)->first_face);
   }
   return result;
+}
+
+RW_SEGMENTATION_INLINE std::vector<double> areas_of(const std::vector<Mesh_stretch>& components,
+                                                    const Dual_mesh& mesh) {
+  std::vector<double> areas;
+  for (const Mesh_stretch& component : components) {
+    const auto begin = mesh.areas().begin() + component.first_face;
+    areas.push_back(std::accumulate(begin, begin + component.faces, 0.));
+  }
+  return areas;
+}
+
+RW_SEGMENTATION_INLINE bool has_walls(const Mesh_stretch& component, const Dual_mesh& mesh) {
+  for (Dual_mesh::Index e = component.first_edge; e < component.first_edge + component.edges; ++e)
+    if (mesh.is_wall(e)) return true;
+  return false;
+}
+
+RW_SEGMENTATION_INLINE Merged_fragments one_segment(const Mesh_stretch& component, const Dual_mesh& mesh) {
+  Merged_fragments merged;
+  merged.tree = Merge_tree(1, {});
+  merged.fragment_of_face.assign(component.faces, 0);
+  merged.report.components = merged.report.fragments = 1;
+  for (Dual_mesh::Index f = component.first_face; f < component.first_face + component.faces; ++f)
+    if (mesh.normal(f).isZero(0)) ++merged.report.degenerate_faces;
+  return merged;
 }
 
 template <class ConcurrencyTag>
