@@ -709,6 +709,7 @@ template <class Mesh, class NamedParameters>
 Labels automatic_in_one_call(const Mesh& mesh, const NamedParameters& np) {
   Automatic_segmentation policies;
   policies.seedings = 1;
+  policies.by_component = false;
   Face_labels<Mesh> ids(mesh);
   segmentation_via_random_walks(mesh, ids.map(), policies, np);
   return ids.values();

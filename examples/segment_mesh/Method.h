@@ -43,6 +43,8 @@ enum class Seeding { farthest, particles, coarse };
 enum class Merge_cost { learned, size, boundary };
 /// What finds out where walks end.
 enum class Solver { star_mesh, eigen };
+/// What tells how large parts are and how many seeds there are: each connected component by itself, or the whole mesh.
+enum class Components { each, whole };
 
 /// Choices and what users call them.
 template <class Choice>
@@ -55,6 +57,7 @@ inline const Names<Seeding> seeding_names = {
 inline const Names<Merge_cost> merge_cost_names = {
     {"learned", Merge_cost::learned}, {"size", Merge_cost::size}, {"boundary", Merge_cost::boundary}};
 inline const Names<Solver> solver_names = {{"star-mesh", Solver::star_mesh}, {"eigen", Solver::eigen}};
+inline const Names<Components> components_names = {{"each", Components::each}, {"whole", Components::whole}};
 inline const Names<RW_segmentation::Dihedral_measure> measure_names = {
     {"angle", RW_segmentation::Dihedral_measure::angle},
     {"cosine", RW_segmentation::Dihedral_measure::one_minus_cosine}};
@@ -157,6 +160,7 @@ struct Method {
   Seeding seeding = Seeding::farthest;
   Merge_cost merge_cost = Merge_cost::learned;
   Solver solver = Solver::star_mesh;
+  Components components = Components::each;
 
   RW_segmentation::Normal_smoothing smoothing;
   RW_segmentation::Dihedral_difference_policy angles = RW_segmentation::smoothed_concavity();   ///< unless by curvature
@@ -166,7 +170,6 @@ struct Method {
   bool are_seeds_exact = false;         ///< whether a number of coarse seeds that cannot be had is an error
   std::optional<std::size_t> segments;  ///< without it as many as the shape suggests
   std::size_t seedings = 1;             ///< whose consensus is taken
-  bool by_component = false;            ///< each connected component as it is by itself
 };
 
 /// The angles that make faces differ where fragments are merged.
@@ -192,6 +195,11 @@ inline std::size_t usual_seedings(Seeding seeding, Merge_cost merge_cost) {
              : 1;
 }
 
+/// What tells how large parts are where the user does not: other seedings are those of the whole, as in the library.
+inline Components usual_components(Seeding seeding) {
+  return seeding == Seeding::farthest ? Components::each : Components::whole;
+}
+
 /// How segments are found, as a user says it. What is not given is left to the library's own numbers.
 struct Choices {
   bool is_coarse = false, is_paper = false;
@@ -200,9 +208,9 @@ struct Choices {
   std::optional<Seeding> seeding;
   std::optional<Merge_cost> merge_cost;
   std::optional<Solver> solver;
+  std::optional<Components> components;
   std::optional<double> smoothing, convex_weight, radius, sigma, cap;
   std::optional<RW_segmentation::Dihedral_measure> measure;
-  std::optional<bool> by_component;
 };
 
 /// The angles that make faces differ, by the user's numbers where they are given.
@@ -248,6 +256,7 @@ inline Method method_of(const Choices& choices, bool are_seeds_segments) {
   method.sigma = choices.sigma.value_or(method.sigma);
   method.cap = choices.cap.value_or(method.cap);
   method.segments = choices.segments;
+  method.components = choices.components.value_or(usual_components(method.seeding));
   method.seedings = choices.seedings.value_or(usual_seedings(method.seeding, method.merge_cost));
   if (choices.automatic_seeds) {
     method.seeds = choices.automatic_seeds;
@@ -256,9 +265,6 @@ inline Method method_of(const Choices& choices, bool are_seeds_segments) {
     method.seeds = choices.is_coarse ? *choices.segments : 2 * *choices.segments;
   }
   method.are_seeds_exact = choices.is_coarse || choices.automatic_seeds;
-  // A number of coarse seeds is that of the segments of the whole.
-  const bool is_number_of_whole = method.seeding == Seeding::coarse && method.seeds;
-  method.by_component = choices.by_component.value_or(!choices.is_paper && !is_number_of_whole);
   return method;
 }
 
@@ -332,7 +338,7 @@ inline Policies policies_of(const Method& method) {
   policies.solver = Chosen_solver(method.solver);
   policies.merge_cost = merge_cost_function(method);
   policies.seedings = method.seedings;
-  policies.by_component = method.by_component;
+  policies.by_component = method.components == Components::each;
   policies.stop =
       method.segments ? RW_segmentation::Segment_count_stop(*method.segments) : stop_by_shape(method.merge_cost);
   return policies;

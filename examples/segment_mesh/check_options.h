@@ -39,6 +39,7 @@ inline void check_method(const Options& options) {
     refuse_beside_surfaces(options.seeding.has_value(), "--seeding");
     refuse_beside_surfaces(options.merge_cost.has_value(), "--merge-cost");
     refuse_beside_surfaces(options.seedings.has_value(), "--seedings");
+    refuse_beside_surfaces(options.components.has_value(), "--components");
     refuse_beside_surfaces(options.solver.has_value(), "--solver");
     refuse_beside_surfaces(options.smoothing.has_value(), "--smoothing");
     refuse_beside_surfaces(options.convex_weight.has_value(), "--convex-weight");
@@ -61,6 +62,8 @@ inline void check_method(const Options& options) {
          "--coarse merges nothing: give --seeding coarse in its place");
   refuse(options.merge_cost && !options.merges(), "--merge-cost",
          "nothing is merged: give --segments or --seeds, too, or no seeds");
+  refuse(options.components && !options.is_coarse && !options.merges(), "--components",
+         "there are no seeds but yours: give --segments or --seeds, too, or no seeds");
   refuse(options.seedings && options.is_coarse, "--seedings",
          "--coarse merges nothing: give --seeding coarse in its place");
   refuse(options.seedings && !options.merges(), "--seedings",

@@ -142,7 +142,8 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->group("Automatic segments");
   auto* automatic_seeds =
       add_number(app, "--seeds", options.automatic_seeds, counts,
-                 "How many automatic seeds make the fragments that are merged (40; more for many --segments).\n"
+                 "How many automatic seeds make the fragments that are merged (40 for each connected component; more\n"
+                 "for many --segments). "
                  "Seeds of your own make further fragments.")
           ->option_text("N")
           ->group("Automatic segments");
@@ -162,6 +163,11 @@ inline void define_command_line(CLI::App& app, Options& options) {
              "--merge-cost)")
       ->option_text("N")
       ->group("Automatic segments");
+  add_choice(app, "--components", options.components, components_names,
+             "What tells how large parts are, and has so many seeds: each connected component by itself (default),\n"
+             "though one of less than a hundredth of the largest one's area is one segment, or the whole mesh\n"
+             "(default with another --seeding)",
+             "Automatic segments");
   add_choice(app, "--seeding", options.seeding, seeding_names,
              "Where automatic seeds are placed: far apart (default), as evenly as particles that repel each other,\n"
              "or one on each large structure, as many as there are unless --seeds tells",

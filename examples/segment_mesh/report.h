@@ -34,6 +34,7 @@ inline Json parameters_of(const Options& options, const Method& method) {
   parameters["smoothing"] = method.smoothing.radius;
   parameters["sigma"] = method.sigma;
   parameters["cap"] = method.cap;
+  if (options.merges() || options.is_coarse) parameters["components"] = name_of(components_names, method.components);
   if (options.merges() || options.is_coarse) parameters["seeding"] = name_of(seeding_names, method.seeding);
   parameters["solver"] = name_of(solver_names, method.solver);
   if (options.merges()) parameters["merge_cost"] = name_of(merge_cost_names, method.merge_cost);

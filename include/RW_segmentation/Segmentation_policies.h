@@ -54,8 +54,9 @@ struct Segmentation_policies {
   /// is 1 where it is as well to merge as not to. Walks run over the faces once, then over about a thousand clusters of faces.
   /// Memory grows with the square of the number of seeds. Policies with another seeding or merge cost have 1 again.
   std::size_t seedings = 1;
-  /// Whether each connected component, across walls, is segmented as it is by itself: that component alone tells what is
-  /// large in it, and all seeds are placed in each. Otherwise the whole mesh tells, and it has as many seeds in all.
+  /// Whether each connected component, across walls, is segmented as it is by itself: policies see nothing else, it alone
+  /// tells what is large, and all seeds are placed in each. Otherwise the whole mesh tells, and all seeds are placed in it,
+  /// with one more for each further component. Policies with another seeding are of the whole again.
   bool by_component = false;
   /// The area below which a component is one segment by that, as a share of that of the largest one; unless it holds walls
   /// or given seeds. 0: none is. The debris of a scan, of less than a hundredth, would be cut into pieces of a few faces.
@@ -64,34 +65,35 @@ struct Segmentation_policies {
   /// These policies with another difference.
   template <class Other>
   auto with_difference(Other other) const {
-    return with(std::move(other), seeding, solver, merge_cost, stop, seedings);
+    return with(std::move(other), seeding, solver, merge_cost, stop, seedings, by_component);
   }
-  /// These policies with another seeding, which is the only one: further ones would not be placed by it.
+  /// These policies with another seeding, which is the only one, since further ones would not be placed by it, and that of
+  /// the whole mesh.
   template <class Other>
   auto with_seeding(Other other) const {
-    return with(difference, std::move(other), solver, merge_cost, stop, 1);
+    return with(difference, std::move(other), solver, merge_cost, stop, 1, false);
   }
   /// These policies with another solver.
   template <class Other>
   auto with_solver(Other other) const {
-    return with(difference, seeding, std::move(other), merge_cost, stop, seedings);
+    return with(difference, seeding, std::move(other), merge_cost, stop, seedings, by_component);
   }
   /// These policies with another merge cost, and one seeding: a cost may mean anything where several agree.
   template <class Other>
   auto with_merge_cost(Other other) const {
-    return with(difference, seeding, solver, std::move(other), stop, 1);
+    return with(difference, seeding, solver, std::move(other), stop, 1, by_component);
   }
   /// These policies with another stop.
   template <class Other>
   auto with_stop(Other other) const {
-    return with(difference, seeding, solver, merge_cost, std::move(other), seedings);
+    return with(difference, seeding, solver, merge_cost, std::move(other), seedings, by_component);
   }
 
  private:
   template <class D, class S, class W, class M, class P>
-  Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p, std::size_t times) const {
-    return {smoothing,    std::move(d), sigma,        cap,          std::move(s),
-            std::move(w), reduction,    std::move(m), std::move(p), times, by_component, least_component};
+  Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p, std::size_t times, bool each) const {
+    return {smoothing, std::move(d), sigma,        cap,   std::move(s), std::move(w),
+            reduction, std::move(m), std::move(p), times, each,         least_component};
   }
 };
 

@@ -39,9 +39,13 @@ class Policy:
     seeding : {"farthest", "particles", "coarse"}, optional
         Where automatic seeds are placed.
     number_of_seeds : int, optional
-        How many; 40 by default ("paper": 60), or twice the number of segments if that is more.
+        How many, in each connected component (see `components`); 40 by default ("paper": 60, of the whole), or twice the number
+        of segments if that is more.
     seedings : int, optional
         How many times they are placed, to merge by what all agree on; 2 by default, 1 with another seeding or merge cost.
+    components : {"each", "whole"}, optional
+        What tells how large parts are, and has so many seeds: each connected component by itself, though one of less than a
+        hundredth of the largest one's area is one segment; or the whole mesh, the default with another seeding.
     merge_cost : {"learned", "size", "boundary"}, optional
         Which fragments are merged first: by what is learned from people (the default), by size, concavity and thickness
         alone, or by the concavity of boundaries as in the paper (the default of "paper").
@@ -65,6 +69,7 @@ class Policy:
     seeding: Literal["farthest", "particles", "coarse"] | None = None
     number_of_seeds: int | None = None
     seedings: int | None = None
+    components: Literal["each", "whole"] | None = None
     merge_cost: Literal["learned", "size", "boundary"] | None = None
     solver: Literal["star-mesh", "eigen"] | None = None
     smoothing: float | None = None
@@ -94,6 +99,7 @@ class Policy:
         choices.segments = None if segments is None else integer_of(segments, "the number of segments", 0)
         choices.difference = difference
         for name in (
+            "components",
             "seeding",
             "merge_cost",
             "solver",

@@ -57,6 +57,7 @@ segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given) {
   said.segments = choices.segments;
   said.automatic_seeds = choices.seeds;
   said.difference = chosen(difference_names, choices.difference, "difference");
+  said.components = chosen(components_names, choices.components, "components");
   said.seeding = chosen(seeding_names, choices.seeding, "seeding");
   said.merge_cost = chosen(merge_cost_names, choices.merge_cost, "merge_cost");
   said.solver = chosen(solver_names, choices.solver, "solver");
@@ -69,18 +70,20 @@ segment_mesh::Method method_of(const Choices& choices, bool are_seeds_given) {
   return segment_mesh::method_of(said, are_seeds_given);
 }
 
-segment_mesh::Policies policies_of(const segment_mesh::Method& method, const Dual& dual,
-                                   const std::vector<double>& difference) {
-  segment_mesh::Policies policies = segment_mesh::policies_of(method);
-  if (difference.empty()) return policies;
+std::vector<double> Edge_difference::operator()(const Dual& mesh, const RW::Progress& progress) const {
+  if (values_.empty()) return method_(mesh, progress);
   std::vector<double> values;
-  values.reserve(dual.number_of_edges());
-  for (const Edge e : dual.edge_descriptors()) values.push_back(difference[e.idx()]);
-  policies.difference = [values = std::move(values)](const auto&, const auto&) { return values; };
-  return policies;
+  values.reserve(mesh.number_of_edges());
+  for (const Edge e : mesh.edge_descriptors()) values.push_back(values_[e.idx()]);
+  return values;
 }
 
-Walk_ground walk_ground(const Mesh& mesh, const Dual& dual, const segment_mesh::Policies& policies,
+Policies policies_of(const segment_mesh::Method& method, const std::vector<double>& difference) {
+  const segment_mesh::Policies policies = segment_mesh::policies_of(method);
+  return policies.with_difference(Edge_difference(policies.difference, difference));
+}
+
+Walk_ground walk_ground(const Mesh& mesh, const Dual& dual, const Policies& policies,
                         const std::vector<double>& conductance, bool needs_difference,
                         const std::function<bool(double)>& callback) {
   Walk_ground ground = {dual, dual, {}, conductance};
@@ -105,6 +108,7 @@ void define_choices(nb::module_& m) {
       .def_rw("is_coarse", &Choices::is_coarse)
       .def_rw("seedings", &Choices::seedings, nb::arg().none())
       .def_rw("difference", &Choices::difference, nb::arg().none())
+      .def_rw("components", &Choices::components, nb::arg().none())
       .def_rw("seeding", &Choices::seeding, nb::arg().none())
       .def_rw("merge_cost", &Choices::merge_cost, nb::arg().none())
       .def_rw("solver", &Choices::solver, nb::arg().none())

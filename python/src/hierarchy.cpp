@@ -28,8 +28,8 @@ Hierarchy hierarchy(const Mesh& mesh, const Choices& choices, const Integers& se
     const Dual dual = mesh.dual(walls);
     const std::vector<double> by_edge =
         difference ? mesh.by_edge(*difference, "the difference") : std::vector<double>();
-    const auto levels = RW::hierarchy_via_random_walks(dual, policies_of(method, dual, by_edge), given,
-                                                       CGAL::parameters::callback(callback));
+    const auto levels =
+        RW::hierarchy_via_random_walks(dual, policies_of(method, by_edge), given, CGAL::parameters::callback(callback));
     return hierarchy_of(mesh, levels, segment_mesh::stop_by_shape(method.merge_cost));
   });
 }

@@ -99,8 +99,8 @@ nb::tuple refine(const Mesh& mesh, const Rows& probabilities, double reach, cons
     require_probabilities(mesh, probabilities);
     const Dual dual = mesh.dual(walls);
     const auto by_edge = difference ? mesh.by_edge(*difference, "the difference") : std::vector<double>();
-    const Walk_ground ground = walk_ground(mesh, dual, policies_of(method_of(choices, true), dual, by_edge), {}, false,
-                                           part(callback, 0, 0.3));
+    const Walk_ground ground =
+        walk_ground(mesh, dual, policies_of(method_of(choices, true), by_edge), {}, false, part(callback, 0, 0.3));
     std::vector<const double*> row_of(num_faces(mesh.halfedges()));
     for (std::size_t f = 0; f < mesh.number_of_faces(); ++f)
       if (const auto face = mesh.known_face(f)) row_of[face->idx()] = probabilities.data() + f * labels;

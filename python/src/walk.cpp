@@ -161,7 +161,7 @@ class Walk {
   std::unique_ptr<Random_walk> made(const segment_mesh::Method& method, bool places_seeds, const Dual& dual,
                                     const std::vector<double>& difference, const std::vector<double>& conductance,
                                     const std::function<bool(double)>& callback) {
-    const segment_mesh::Policies policies = policies_of(method, dual, difference);
+    const Policies policies = policies_of(method, difference);
     Walk_ground ground = walk_ground(mesh_, dual, policies, conductance, places_seeds, part(callback, 0, 0.8));
     // Refers to this alone: each call has a callback of its own.
     const auto of_call = CGAL::parameters::callback(

@@ -68,6 +68,7 @@ segment_mesh::Method method_of(const val& way) {
   method.seeding = choice_of(seeding_names, name("seeding"));
   method.merge_cost = choice_of(merge_cost_names, name("mergeCost"));
   method.radius = RW_segmentation::Ball_radius::in_edge_lengths(way["radius"].as<double>());
+  method.components = usual_components(method.seeding);
   method.seedings = usual_seedings(method.seeding, method.merge_cost);
   method.angles = angles_of(method.difference);
   take_numbers(RW_segmentation::Automatic_segmentation(), method);

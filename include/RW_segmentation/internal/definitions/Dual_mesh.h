@@ -130,7 +130,8 @@ class Vertex_numbers {
   }
 
   Index operator[](Index vertex) {
-    Index& number = vertex >= first_ ? number_[vertex - first_] : number_of_shared_.try_emplace(vertex, none).first->second;
+    Index& number =
+        vertex >= first_ ? number_[vertex - first_] : number_of_shared_.try_emplace(vertex, none).first->second;
     if (number == none) {
       number = static_cast<Index>(vertices_.size());
       vertices_.push_back(vertex);
@@ -145,7 +146,8 @@ class Vertex_numbers {
   static constexpr Index none = std::numeric_limits<Index>::max();
 
   Index first_ = 0;
-  std::vector<Index> number_;  // of the vertices from `first_` on: of all but those that an earlier component has as well
+  std::vector<Index>
+      number_;  // of the vertices from `first_` on: of all but those that an earlier component has as well
   std::unordered_map<Index, Index> number_of_shared_;
   std::vector<Index> vertices_;
 };

@@ -105,7 +105,7 @@ namespace internal {
 
 RW_SEGMENTATION_INLINE Merge_tree side_by_side(const std::vector<Merge_tree>& trees) {
   struct Next {
-    double dearest;          // of the merges of its tree up to this one
+    double dearest;           // of the merges of its tree up to this one
     std::size_t tree, merge;  // places
   };
   std::vector<Next> order;

@@ -75,8 +75,9 @@ RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> seeds_of_compo
     const std::vector<Mesh_stretch>& components, const std::vector<Dual_mesh::Index>& seeds) {
   std::vector<std::vector<Dual_mesh::Index>> result(components.size());
   for (const Dual_mesh::Index seed : seeds) {
-    const auto after = std::upper_bound(components.begin(), components.end(), seed,
-                                        [](Dual_mesh::Index face, const Mesh_stretch& c) { return face < c.first_face; });
+    const auto after =
+        std::upper_bound(components.begin(), components.end(), seed,
+                         [](Dual_mesh::Index face, const Mesh_stretch& c) { return face < c.first_face; });
     result[static_cast<std::size_t>(after - components.begin()) - 1].push_back(seed - (after - 1)->first_face);
   }
   return result;
