@@ -229,7 +229,7 @@ TEST(TiledSurfaces, KeepSamplesOfEachRegionAndNoMore) {
   const Cut_mesh mesh = octants(shape_of(solids::stepped_shaft(solids::even(0.05))));
   const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
   std::size_t most = 0;
-  for (const Tile_surfaces& tile : hierarchy.regions) {
+  for (const Tile_surfaces& tile : hierarchy.of_parts.front().regions) {
     std::map<Index, std::size_t> samples;
     for (const Index region : tile.region_of) ++samples[region];
     EXPECT_EQ(samples.size(), tile.areas.size());
@@ -241,7 +241,8 @@ TEST(TiledSurfaces, KeepSamplesOfEachRegionAndNoMore) {
 TEST(TiledSurfaces, HaveAreasThatAddUpToTheWhole) {
   const Cut_mesh mesh = octants(shape_of(solids::capsule(solids::even(0.15))));
   double sum = 0;
-  for (const Tile_surfaces& tile : hierarchy_of_tiled_surfaces(mesh.tiles).regions)
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
+  for (const Tile_surfaces& tile : hierarchy.of_parts.front().regions)
     for (const double area : tile.areas) sum += area;
   EXPECT_NEAR(sum, 1, 1e-9);
 }
@@ -256,12 +257,13 @@ TEST(TiledSurfaces, EndAtWalls) {
     const Cut_mesh mesh = with_walls(open, shape, upper.walls);
     const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
     EXPECT_EQ(hierarchy.components, 2U);
-    EXPECT_EQ(hierarchy.merged.walls, 60U);  // once round, the ends of the tube left out
+    EXPECT_EQ(hierarchy.walls, 60U);  // once round, the ends of the tube left out
     EXPECT_EQ(upper.on_both_sides(mesh.of_whole(hierarchy.segments(2))).size(), 0U);
     EXPECT_EQ(segments_by_shape(hierarchy), 2U);
     std::set<std::set<std::size_t>> beside_each_other;
     const std::vector<std::size_t> segment = hierarchy.tree.segment_of_fragments(2);
-    for (const auto& [a, b] : hierarchy.merged.neighbours) beside_each_other.insert({segment[a], segment[b]});
+    for (const auto& [a, b] : hierarchy.of_parts.front().merged.neighbours)
+      beside_each_other.insert({segment[a], segment[b]});
     EXPECT_EQ(beside_each_other.count({0, 1}), 1U);
   }
 }

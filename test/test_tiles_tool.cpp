@@ -646,7 +646,7 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   expect_failure(3, "holds the work on other tiles or with other options",
                  command({"--tile-folder", "work", "--smoothing", "0.02"}));
-  for (const char* file : {"walk", "plan", "segments"}) {
+  for (const char* file : {"walk", "parts", "segments"}) {
     const std::string content = content_of(path(std::string("work/") + file));
     for (const std::string& broken : {content.substr(0, content.size() / 2), content + "x", std::string(), [&] {
                                         std::string changed = content;
@@ -655,7 +655,8 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
                                       }()}) {
       write(std::string("work/") + file, broken);
       expect_failure(
-          2, file, command({"--tile-folder", "work", "--tile-step", file == std::string("plan") ? "seeds" : "report"}));
+          2, file,
+          command({"--tile-folder", "work", "--tile-step", file == std::string("parts") ? "seeds" : "report"}));
     }
     write(std::string("work/") + file, content);
   }

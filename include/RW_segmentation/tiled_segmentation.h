@@ -13,6 +13,7 @@
 #include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/smoothed_face_normals.h>
+#include <RW_segmentation/tile_plan.h>
 
 #include <CGAL/tags.h>
 
@@ -29,7 +30,7 @@
 /// The segmentation of a mesh that comes in tiles, automatic or from seeds of the user, by steps that each see one tile, and
 /// steps between them that see no mesh at all:
 ///
-///     each tile   `survey_tile()`       how large it is, and its border
+///     each tile   `survey_tile()`       how large it is, and its border (see `tile_plan.h`)
 ///     all         `plan_tiles()`        which borders are the same
 ///     each tile   `border_of_tile()`    what its neighbours must know of it, and its noise
 ///     all         `noise_of_tiles()`    how noisy the whole is
@@ -50,6 +51,9 @@
 /// see the surface only as far as its neighbours' borders reach. From seeds of the user it is that of `Random_walk`, but for
 /// the clusters that walks run over, with normals of the smoothed shape and `seeded_concavity()`.
 ///
+/// All of this is for one connected part of a mesh, or for a mesh as a whole. Each part is segmented as it is by itself where
+/// its pieces take the place of tiles; see `tile_plan.h`. So do the functions that do all steps.
+///
 /// Walls are those of the tiles (`Tile::walls`) and, with `Tiled_segmentation::wall_angle`, sharp edges, within tiles and
 /// between them. All steps heed them as `segmentation_via_random_walks()` does.
 
@@ -58,53 +62,24 @@ namespace RW_segmentation {
 /// What a segmentation of tiles is made with; as in `Automatic_segmentation` with one seeding.
 struct Tiled_segmentation {
   Normal_smoothing smoothing;    ///< of the shape
-  std::size_t seeds = 40;        ///< of the whole mesh, and one more for each further connected component
+  std::size_t seeds = 40;        ///< of those tiles, and one more for each further connected component of them
   Walk_reduction reduction;      ///< how large clusters are; walks over tiles run over clusters in any case
   Thickness_sampling thickness;  ///< 0 samples: thickness does not count
   /// How far apart the same vertex may be in two tiles, in the unit of the coordinates.
   double tolerance = 0;
   /// Edges over which the surface turns by more are walls, beside those of the tiles; in radians, infinite: none is.
   double wall_angle = std::numeric_limits<double>::infinity();
+  bool by_component = true;       ///< whether `hierarchy_of_tiles()` parts a mesh, see `Segmentation_policies`
+  double least_component = 0.01;  ///< see `Segmentation_policies`; parts of less area have a seed in each component
 
   Tiled_segmentation() = default;
   /// For so many segments: with twice as many seeds, 40 at least.
   explicit Tiled_segmentation(std::size_t segments);
-};
 
-/// What `survey_tile()` finds.
-struct Tile_survey {
-  std::size_t faces = 0;                          ///< how many
-  double area = 0;                                ///< of all faces
-  Eigen::AlignedBox3d box;                        ///< of the vertices that have faces
-  std::vector<Dual_mesh::Index> border_vertices;  ///< on open sides, rising
-  std::vector<Eigen::Vector3d> border_points;     ///< of these
-  std::vector<std::uint64_t> border_ids;          ///< of these, if the tile has ids
-};
-
-/// What `plan_tiles()` knows of the whole.
-struct Tile_plan {
-  /// A vertex on the border of a tile that other tiles have, too.
-  struct Shared_vertex {
-    Dual_mesh::Index vertex;  ///< of the tile
-    Dual_mesh::Index id;      ///< the same in all tiles
-  };
-  /// What the plan knows of one tile.
-  struct Of_tile {
-    double area_before = 0;                      ///< of all tiles before this one, in the unit box
-    std::vector<Shared_vertex> shared_vertices;  ///< in the order of the vertices
-    std::vector<Dual_mesh::Index> neighbours;    ///< tiles that share a vertex with it, rising
-  };
-
-  internal::Unit_box box;      ///< of the whole
-  double total_area = 0;       ///< in the unit box
-  std::size_t faces = 0;       ///< of all tiles
-  std::vector<Of_tile> tiles;  ///< by tile
-};
-
-/// A tile by its place in a plan.
-struct Tile_in_plan {
-  std::size_t number;     ///< from 0
-  const Tile_plan& plan;  ///< of all tiles
+  /// The same for a part of a mesh.
+  /// \param area of the part
+  /// \param largest_area of a part
+  Tiled_segmentation of_part(double area, double largest_area) const;
 };
 
 /// What `border_of_tile()` returns: the faces near a tile's border that its neighbours see.
@@ -282,18 +257,6 @@ Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const 
                           const Tiled_segmentation& options, const Progress& progress);
 
 }  // namespace internal
-
-/// Looks at a tile by itself.
-/// \throws std::invalid_argument if a point is not finite, a corner is no vertex, ids are not one for each vertex or a wall
-/// is no side of a face
-/// Complexity: linear; O(n log n) for n faces where there are walls.
-Tile_survey survey_tile(const Tile& tile);
-
-/// Finds out where tiles meet.
-/// \param tolerance how far apart the same vertex may be in two tiles, in the unit of the coordinates
-/// \throws std::invalid_argument if some tiles have ids and others have not, or the tolerance is negative
-/// Complexity: O(b log b) for b vertices on the borders of all tiles.
-Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance = 0);
 
 /// Takes what neighbours must see of a tile, and measures its noise: on all faces of a tile of up to 500 000, and on patches
 /// of 250 000 faces together, spread over it, of a larger one.

@@ -33,6 +33,9 @@
 ///     each tile   `surfaces_of_tile()`  with its neighbours' borders: the surface of each face; samples of surfaces
 ///     all         `merge_tiles()`       which surfaces go on from tile to tile, by fits to samples of both
 ///
+/// As there, all of this is for one connected part or for a mesh as a whole, but for the noise: that is of the whole,
+/// `noise_of_parts()`. Each part counts as exact by its own size where pieces take the place of tiles.
+///
 /// Each tile is segmented as `segmentation_into_surfaces()` segments a mesh. What differs from the mesh as a whole: a
 /// surface near a tile's border is found by what reaches into the halo alone.
 
@@ -67,6 +70,9 @@ struct Tile_neighbourhoods {
 struct Surface_noise {
   double deviation = 0;                                       ///< standard deviation, in the unit box
   internal::Noise_kind kind = internal::Noise_kind::unclear;  ///< where there is noise
+
+  /// That of a mesh in the unit box of a part.
+  Surface_noise in_part(const Tile_parts& parts, std::size_t part) const;
 };
 
 /// What `merge_tiles()` needs of a tile: samples of its regions, and their boundaries.
@@ -128,6 +134,14 @@ Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_nei
 Surface_noise noise_of_tiles(const Tile_plan& plan, const std::vector<Tile_neighbourhoods>& tiles,
                              const Tiled_surfaces& options = {});
 
+/// How noisy a mesh of several parts is. A mesh is clean where each part is by its own size, and otherwise as noisy as the whole.
+/// \param pieces by tile, and by piece of it
+/// \returns the noise in the unit box of the whole; see `Surface_noise::in_part()`
+/// \throws std::invalid_argument if the noise is not finite
+/// Complexity: that of `noise_of_tiles()`.
+Surface_noise noise_of_parts(const Tile_parts& parts, const std::vector<std::vector<Tile_neighbourhoods>>& pieces,
+                             const Tiled_surfaces& options = {});
+
 /// Joins a tile with its neighbours' borders, and finds the surfaces of its faces.
 /// \param neighbours the borders of `plan.tiles[number].neighbours`, in their order
 /// \param noise of the whole
@@ -160,12 +174,29 @@ std::vector<Analytic_surface> surfaces_of_tiles(const Tile_plan& plan, const Sur
                                                 const std::vector<std::size_t>& segment_of_fragment,
                                                 std::size_t number_of_segments);
 
+/// The surfaces of a connected part.
+struct Part_surfaces {
+  std::vector<Tile_surfaces> regions;  ///< by piece, in the order of the part's plan
+  Merged_surfaces merged;              ///< from these
+};
+
+/// The trees of all parts as one, their fragments one part after the other.
+Merge_tree tree_of_parts(const std::vector<Part_surfaces>& parts);
+
+/// As `surfaces_of_tiles()`, of all parts.
+/// \param noise in the unit box of the whole
+/// \param segment_of_fragment for the fragments of `tree_of_parts()`
+std::vector<Analytic_surface> surfaces_of_parts(const Tile_parts& parts, const Surface_noise& noise,
+                                                const std::vector<Part_surfaces>& surfaces,
+                                                const std::vector<std::size_t>& segment_of_fragment,
+                                                std::size_t number_of_segments);
+
 /// All levels of a segmentation of tiles into surfaces.
 struct Tiled_surface_hierarchy : Tiled_hierarchy {
-  Tile_plan plan;                      ///< of the tiles
-  Surface_noise noise;                 ///< of the whole
-  std::vector<Tile_surfaces> regions;  ///< by tile
-  Merged_surfaces merged;              ///< from these
+  Tile_parts parts;                     ///< connected ones
+  Surface_noise noise;                  ///< of the whole, in its unit box
+  std::vector<Part_surfaces> of_parts;  ///< their surfaces
+  std::size_t walls = 0;                ///< edges of all tiles that are
 
   /// The surface of each segment at a level of the tree, in the coordinates of the tiles.
   /// \throws std::invalid_argument if there are more components or fewer fragments than `number_of_segments`

@@ -29,7 +29,7 @@ class Surface_steps {
   Surface_steps(const Tile_folder& folder, const Options& options) : folder_(folder), options_(options) {}
 
   std::vector<Tile_step> steps() const {
-    return {{"border", true, {"border", "noise"}, [this](std::size_t tile) { border(tile); }},
+    return {{"border", true, {"piece_faces", "border", "noise"}, [this](std::size_t tile) { border(tile); }},
             {"noise", false, {"noise_of_all"}, [this](std::size_t) { noise(); }},
             {"surfaces", true, {"fragments", "regions"}, [this](std::size_t tile) { surfaces(tile); }},
             {"merge", false, {"surfaces", "segments"}, [this](std::size_t) { merge(); }}};
@@ -52,64 +52,85 @@ class Surface_steps {
  private:
   using Index = RW::Dual_mesh::Index;
 
-  RW::Tile_plan read_plan() const { return folder_.read<RW::Tile_plan>("plan"); }
+  RW::Tile_parts read_parts() const { return folder_.read<RW::Tile_parts>("parts"); }
 
   void border(std::size_t tile) const {
-    RW::Tile_neighbourhoods neighbourhoods;
-    const auto border = RW::border_of_tile(folder_.read<RW::Tile>("tile", tile), {tile, read_plan()}, neighbourhoods,
-                                           RW::Tiled_surfaces());
-    folder_.write_of_tile(tile, "border", border);
+    const auto parts = read_parts();
+    const auto pieces = folder_.read_pieces(parts, tile);
+    std::vector<RW::Tile_border> borders;
+    std::vector<RW::Tile_neighbourhoods> neighbourhoods(pieces.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      borders.push_back(RW::border_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), neighbourhoods[p],
+                                           RW::Tiled_surfaces()));
+    folder_.write_faces_of_pieces(tile, pieces);
+    folder_.write_of_tile(tile, "border", borders);
     folder_.write_of_tile(tile, "noise", neighbourhoods);
   }
 
   void noise() const {
-    const auto plan = read_plan();
+    const auto parts = read_parts();
     RW::Tiled_surfaces method;
-    if (options_.noise) method.noise = *options_.noise / plan.box.unit;
-    folder_.write("noise_of_all", RW::noise_of_tiles(plan, folder_.read_all<RW::Tile_neighbourhoods>("noise"), method));
+    if (options_.noise) method.noise = *options_.noise / parts.box.unit;
+    folder_.write("noise_of_all",
+                  RW::noise_of_parts(parts, folder_.read_all<std::vector<RW::Tile_neighbourhoods>>("noise"), method));
   }
 
   void surfaces(std::size_t tile) const {
-    const auto plan = read_plan();
-    RW::Tile_surfaces regions;
+    const auto parts = read_parts();
+    const auto noise = folder_.read<RW::Surface_noise>("noise_of_all");
+    const auto pieces = folder_.read_pieces(parts, tile);
+    const auto borders = folder_.read_neighbours_of_pieces<RW::Tile_border>("border", parts, tile);
     RW::Tiled_surfaces method;
     method.wall_angle = wall_angle_of(options_);
-    const auto fragments = RW::surfaces_of_tile(folder_.read<RW::Tile>("tile", tile), {tile, plan},
-                                                folder_.read_neighbours<RW::Tile_border>("border", plan, tile),
-                                                folder_.read<RW::Surface_noise>("noise_of_all"), regions, method);
+    std::vector<RW::Tile_surfaces> regions(pieces.size());
+    std::vector<std::vector<Index>> fragments;  // by piece and face
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      fragments.push_back(RW::surfaces_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), borders[p],
+                                               noise.in_part(parts, parts.places[tile][p].part), regions[p], method));
     folder_.write_of_tile(tile, "fragments", fragments);
     folder_.write_of_tile(tile, "regions", regions);
   }
 
   void merge() const {
-    const auto plan = read_plan();
+    const auto parts = read_parts();
     const auto noise = folder_.read<RW::Surface_noise>("noise_of_all");
-    const auto regions = folder_.read_all<RW::Tile_surfaces>("regions");
-    const RW::Merged_surfaces merged = RW::merge_tiles(plan, noise, regions);
-    std::vector<double> areas(merged.tree.number_of_fragments(), 0.);
-    for (std::size_t t = 0; t < regions.size(); ++t)
-      for (std::size_t r = 0; r < regions[t].areas.size(); ++r) areas[merged.fragments[t][r]] += regions[t].areas[r];
-    const std::size_t suggested = RW::Cost_threshold_stop(RW::Surface_segmentation().stop_cost)(merged.tree);
-    Tile_segments segments =
-        tile_segments(merged.tree, options_.segments.value_or(suggested), areas, merged.neighbours);
+    auto regions = folder_.read_parts<RW::Tile_surfaces>("regions", parts);
+    Merged_parts all(parts);
+    std::vector<RW::Part_surfaces> surfaces;
+    std::size_t turned_sides = 0, walls = 0;
+    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+      auto& [of_pieces, merged] = surfaces.emplace_back();
+      of_pieces = std::move(regions[p]);
+      merged = RW::merge_tiles(parts.parts[p].plan, noise.in_part(parts, p), of_pieces);
+      all.add_part(merged.tree);
+      all.add_neighbours(merged.neighbours);
+      for (std::size_t i = 0; i < of_pieces.size(); ++i) {
+        for (std::size_t r = 0; r < of_pieces[i].areas.size(); ++r)
+          all.add_area(merged.fragments[i][r], of_pieces[i].areas[r]);
+        all.set_numbers(parts.parts[p].pieces[i], merged.fragments[i]);
+      }
+      turned_sides += merged.turned_sides;
+      walls += merged.walls;
+    }
+    const RW::Merge_tree tree = all.tree();
+    const std::size_t suggested = RW::Cost_threshold_stop(RW::Surface_segmentation().stop_cost)(tree);
+    Tile_segments segments = all.segments(tree, options_.segments.value_or(suggested));
     segments.suggested = suggested;
-    segments.numbers = merged.fragments;
-    segments.turned_sides = merged.turned_sides;
-    segments.walls = merged.walls;
-    folder_.write("surfaces", surfaces_in_words(plan, noise, regions, merged, segments));
+    segments.turned_sides = turned_sides;
+    segments.walls = walls;
+    folder_.write("surfaces", surfaces_in_words(parts, noise, surfaces, segments));
     folder_.write("segments", segments);
   }
 
   /// What the report tells of the surfaces.
-  std::string surfaces_in_words(const RW::Tile_plan& plan, const RW::Surface_noise& noise,
-                                const std::vector<RW::Tile_surfaces>& regions, const RW::Merged_surfaces& merged,
-                                const Tile_segments& segments) const {
+  std::string surfaces_in_words(const RW::Tile_parts& parts, const RW::Surface_noise& noise,
+                                const std::vector<RW::Part_surfaces>& of_parts, const Tile_segments& segments) const {
     const std::vector<std::size_t> segment(segments.of_fragment.begin(), segments.of_fragment.end());
     std::vector<RW::Analytic_surface> surfaces =
-        RW::surfaces_of_tiles(plan, noise, regions, merged, segment, segments.area.size());
-    Json result = {{"noise", noise.deviation * plan.box.unit}, {"regular", Json::array()}};
+        RW::surfaces_of_parts(parts, noise, of_parts, segment, segments.area.size());
+    Json result = {{"noise", noise.deviation * parts.box.unit}, {"regular", Json::array()}};
     if (options_.is_regular) {
-      const auto tolerance = regularity_tolerance({options_.regular_length, options_.regular_angle}, plan.box.unit);
+      const auto tolerance = regularity_tolerance({options_.regular_length, options_.regular_angle}, parts.box.unit);
       RW::Regular_surfaces regular = RW::regular_surfaces(surfaces, tolerance);
       surfaces = std::move(regular.surfaces);
       result["regular"] = snaps_of(regular.snaps);

@@ -8,6 +8,7 @@
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,52 @@ class Tile_folder {
     std::vector<Value> values;
     for (const auto neighbour : plan.tiles[tile].neighbours) values.push_back(read<Value>(file, neighbour));
     return values;
+  }
+
+  /// What a tile has of each part.
+  std::vector<RW::Tile_piece> read_pieces(const RW::Tile_parts& parts, std::size_t tile) const {
+    return RW::pieces_of_parts(read<std::vector<RW::Tile_piece>>("connected", tile), parts, tile);
+  }
+
+  /// Leaves the faces of these to the step that tells their labels.
+  void write_faces_of_pieces(std::size_t tile, const std::vector<RW::Tile_piece>& pieces) const {
+    std::vector<std::vector<RW::Dual_mesh::Index>> faces;
+    for (const RW::Tile_piece& piece : pieces) faces.push_back(piece.faces);
+    write_of_tile(tile, "piece_faces", faces);
+  }
+
+  /// What a step has left of each piece, one tile after the other in the order of each part.
+  /// \returns by part, and by piece in its plan
+  template <class Value>
+  std::vector<std::vector<Value>> read_parts(const char* file, const RW::Tile_parts& parts) const {
+    std::vector<std::vector<Value>> of_parts(parts.parts.size());
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      auto of_tile = read<std::vector<Value>>(file, t);
+      for (std::size_t p = 0; p < of_tile.size(); ++p)
+        of_parts[parts.places[t][p].part].push_back(std::move(of_tile[p]));  // plans are in the order of the tiles
+    }
+    return of_parts;
+  }
+
+  /// What a step has left of the neighbours of each piece of a tile.
+  /// \returns by piece, in the order of its neighbours in the plan of its part
+  template <class Value>
+  std::vector<std::vector<Value>> read_neighbours_of_pieces(const char* file, const RW::Tile_parts& parts,
+                                                            std::size_t tile) const {
+    std::map<std::size_t, std::vector<Value>> of_tiles;
+    std::vector<std::vector<Value>> of_pieces;
+    for (std::size_t p = 0; p < parts.places[tile].size(); ++p) {
+      of_pieces.emplace_back();
+      for (const auto& [other, place] : parts.neighbours(piece(tile, p))) {
+        if (of_tiles.count(other) == 0) of_tiles[other] = read<std::vector<Value>>(file, other);
+        of_pieces.back().push_back(of_tiles[other][place]);
+      }
+    }
+    return of_pieces;
+  }
+
+  static RW::Tile_parts::Piece piece(std::size_t tile, std::size_t place) {
+    return {static_cast<RW::Dual_mesh::Index>(tile), static_cast<RW::Dual_mesh::Index>(place)};
   }
 
  private:

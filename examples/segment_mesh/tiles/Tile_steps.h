@@ -47,8 +47,8 @@ class Tile_steps {
         folder_(std::move(folder), tiles.size()),
         walk_(folder_, options),
         surfaces_(folder_, options) {
-    steps_ = {{"survey", true, {"tile", "file_faces", "survey"}, [this](std::size_t tile) { survey(tile); }},
-              {"plan", false, {"plan"}, [this](std::size_t) { plan(); }}};
+    steps_ = {{"survey", true, {"connected", "file_faces", "survey"}, [this](std::size_t tile) { survey(tile); }},
+              {"plan", false, {"parts", "plan"}, [this](std::size_t) { plan(); }}};
     for (Tile_step& step : options.is_engineering ? surfaces_.steps() : walk_.steps())
       steps_.push_back(std::move(step));
     if (smooths_boundaries(options)) {
@@ -101,6 +101,9 @@ class Tile_steps {
   /// The seeds of the user in words, which the steps from `places` on depend on.
   std::string seeds_in_words() const { return walk_.seeds_in_words(); }
 
+  /// Whether connected parts are segmented each by itself, in words; all steps depend on it.
+  std::string parting_in_words() const { return is_parted() ? "each part by itself" : "all parts as a whole"; }
+
   /// What makes all steps what they are, in words: files that other tiles or options have left are of no use.
   std::string parameters() const {
     Json parameters = {{"tiles", Json::array()},
@@ -132,6 +135,8 @@ class Tile_steps {
   using Index = RW::Dual_mesh::Index;
 
   double tolerance() const { return options_.tolerance.value_or(0); }
+
+  bool is_parted() const { return options_.is_engineering || walk_.is_parted(); }
 
   std::size_t label_of(std::size_t segment) const {
     return options_.is_engineering ? segment : walk_.label_of(segment);
@@ -188,12 +193,29 @@ class Tile_steps {
     } catch (const mesh_files::Unreadable_file& error) {
       failure = error.what();  // leaves the other tiles their segments
     }
-    folder_.write_of_tile(tile, "tile", arrays);
+    const RW::Tile_survey survey = RW::survey_tile(arrays);
+    std::vector<RW::Tile_piece> pieces;
+    if (is_parted())
+      pieces = RW::connected_pieces(std::move(arrays));
+    else
+      pieces.push_back(RW::whole_tile(std::move(arrays)));
+    std::vector<RW::Tile_survey> of_pieces;
+    for (const RW::Tile_piece& piece : pieces) of_pieces.push_back(RW::survey_tile(piece.tile));
+    folder_.write_of_tile(tile, "connected", pieces);
     folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
-    folder_.write_of_tile(tile, "survey", RW::survey_tile(arrays), failure);
+    folder_.write_of_tile(tile, "survey", survey, failure, of_pieces);
   }
 
-  void plan() const { folder_.write("plan", RW::plan_tiles(folder_.read_all<RW::Tile_survey>("survey"), tolerance())); }
+  void plan() const {
+    std::vector<RW::Tile_survey> surveys(tasks_.size());
+    std::vector<std::vector<RW::Tile_survey>> of_pieces(tasks_.size());
+    for (std::size_t t = 0; t < tasks_.size(); ++t) {
+      std::string failure;
+      folder_.read_of_tile_into(t, "survey", surveys[t], failure, of_pieces[t]);
+    }
+    folder_.write("parts", RW::parts_of_tiles(of_pieces, tolerance(), is_parted()));
+    folder_.write("plan", RW::plan_tiles(surveys, tolerance()));
+  }
 
   /// The walls of a tile, sharp edges included.
   Wall_map all_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
@@ -204,9 +226,14 @@ class Tile_steps {
 
   /// The label of each face of a tile.
   std::vector<std::size_t> labels_of(std::size_t tile, const Tile_segments& all) const {
-    std::vector<std::size_t> label;
-    for (const Index fragment : folder_.read<std::vector<Index>>("fragments", tile))
-      label.push_back(label_of(all.segment(tile, fragment)));
+    const auto faces = folder_.read<std::vector<std::vector<Index>>>("piece_faces", tile);
+    const auto fragments = folder_.read<std::vector<std::vector<Index>>>("fragments", tile);
+    std::size_t number_of_faces = 0;
+    for (const auto& of_piece : faces) number_of_faces += of_piece.size();
+    std::vector<std::size_t> label(number_of_faces);
+    for (std::size_t p = 0; p < faces.size(); ++p)
+      for (std::size_t f = 0; f < faces[p].size(); ++f)
+        label[faces[p][f]] = label_of(all.segment(tile, p, fragments[p][f]));
     return label;
   }
 
@@ -214,13 +241,10 @@ class Tile_steps {
   void strip(std::size_t tile) const {
     RW::Tile_strip strip;
     if (failure_of(tile).empty()) {
-      auto arrays = folder_.read<RW::Tile>("tile", tile);
-      if (options_.constraints_angle) {
-        mesh_files::Polygon_soup soup;
-        Oriented_mesh input = read_tile(tile, soup);
-        const Wall_map walls = all_walls(tile, soup, input.mesh);
-        arrays = RW::Tile_of<Mesh>(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
-      }
+      mesh_files::Polygon_soup soup;
+      Oriented_mesh input = read_tile(tile, soup);
+      const Wall_map walls = all_walls(tile, soup, input.mesh);
+      const RW::Tile_of<Mesh> arrays(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
       strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")},
                                 labels_of(tile, folder_.read<Tile_segments>("segments")));
     }

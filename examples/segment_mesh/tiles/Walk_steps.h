@@ -39,8 +39,11 @@ class Walk_steps {
     method_.wall_angle = wall_angle_of(options);
   }
 
+  /// Whether connected parts are segmented each by itself. Seeds of the user are those of the whole.
+  bool is_parted() const { return seeds_.empty() && options_.components != Components::whole; }
+
   std::vector<Tile_step> steps() const {
-    return {{"border", true, {"border", "noise"}, [this](std::size_t tile) { border(tile); }},
+    return {{"border", true, {"piece_faces", "border", "noise"}, [this](std::size_t tile) { border(tile); }},
             {"noise", false, {"noise_of_all"}, [this](std::size_t) { noise(); }},
             {"shape", true, {"shape", "outline"}, [this](std::size_t tile) { shape(tile); }},
             {"places", true, {"places"}, [this](std::size_t tile) { places(tile); }},
@@ -76,9 +79,12 @@ class Walk_steps {
 
   /// Adds what is known at the end.
   void complete(Json& report) const {
-    const auto walk = folder_.read<RW::Tile_walk>("walk");
-    report["clusters"] = walk.clusters;
-    report["seeds"] = folder_.read<RW::Tile_seeds>("seeds").seeds.size();
+    std::size_t clusters = 0, seeds = 0;
+    for (const RW::Tile_walk& walk : folder_.read<std::vector<RW::Tile_walk>>("walk")) clusters += walk.clusters;
+    for (const RW::Tile_seeds& of_part : folder_.read<std::vector<RW::Tile_seeds>>("seeds"))
+      seeds += of_part.seeds.size();
+    report["clusters"] = clusters;
+    report["seeds"] = seeds;
     if (!labels_.empty()) report["unseeded_components"] = report["segments"].size() - labels_.size();
   }
 
@@ -101,121 +107,186 @@ class Walk_steps {
     }
   }
 
-  RW::Tile_plan read_plan() const { return folder_.read<RW::Tile_plan>("plan"); }
+  using Piece = RW::Tile_parts::Piece;
+
+  RW::Tile_parts read_parts() const { return folder_.read<RW::Tile_parts>("parts"); }
 
   void border(std::size_t tile) const {
-    RW::Tile_noise noise;
-    const auto border = RW::border_of_tile(folder_.read<RW::Tile>("tile", tile), {tile, read_plan()}, noise, method_);
-    folder_.write_of_tile(tile, "border", border);
-    folder_.write_of_tile(tile, "noise", noise);
+    const auto parts = read_parts();
+    const auto pieces = folder_.read_pieces(parts, tile);
+    std::vector<RW::Tile_border> borders;
+    std::vector<RW::Tile_noise> noises(pieces.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      borders.push_back(RW::border_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), noises[p], method_));
+    folder_.write_faces_of_pieces(tile, pieces);
+    folder_.write_of_tile(tile, "border", borders);
+    folder_.write_of_tile(tile, "noise", noises);
   }
 
   void noise() const {
-    const auto noise = RW::noise_of_tiles(folder_.read_all<RW::Tile_noise>("noise"));
-    folder_.write("noise_of_all", noise.turn, noise.smoother_turn);
+    std::vector<RW::internal::Noise_of_mesh> noises;
+    for (const auto& of_part : folder_.read_parts<RW::Tile_noise>("noise", read_parts()))
+      noises.push_back(RW::noise_of_tiles(of_part));
+    folder_.write("noise_of_all", noises);
   }
 
-  void shape(std::size_t tile) const {
-    const auto plan = read_plan();
-    RW::internal::Noise_of_mesh noise;
-    folder_.read_into("noise_of_all", noise.turn, noise.smoother_turn);
-    const auto [shape, outline] =
-        RW::shape_of_tile(folder_.read<RW::Tile>("tile", tile), {tile, plan},
-                          folder_.read_neighbours<RW::Tile_border>("border", plan, tile), noise, method_);
-    RW::internal::Face_corners corners;
-    std::vector<Eigen::Vector3d> normals;
-    std::vector<char> is_wall;
-    for (Index e = 0; shape.mesh.has_walls() && e < shape.mesh.number_of_edges(); ++e)
-      is_wall.push_back(shape.mesh.is_wall(e));
-    for (Index f = 0; f < shape.mesh.number_of_faces(); ++f) {
-      for (const auto v : shape.mesh.corners(f)) corners.add(v);
-      corners.end_face();
-      normals.push_back(shape.mesh.shape_normal(f));
-    }
-    folder_.write_of_tile(tile, "shape", corners, shape.mesh.points(), normals, is_wall, shape.own_faces, shape.halo,
-                          shape.shared_edges);
-    folder_.write_of_tile(tile, "outline", outline);
-  }
-
-  RW::Tile_shape read_shape(const RW::Tile_plan& plan, std::size_t tile) const {
-    RW::Tile_shape shape;
+  /// A `Tile_shape` in a file.
+  struct Stored_shape {
     RW::internal::Face_corners corners;
     std::vector<Eigen::Vector3d> points, normals;
     std::vector<char> is_wall;
-    folder_.read_of_tile_into(tile, "shape", corners, points, normals, is_wall, shape.own_faces, shape.halo,
-                              shape.shared_edges);
-    shape.mesh = RW::internal::part_of(plan, std::move(corners), std::move(points), std::move(is_wall))
-                     .with_shape_normals(std::move(normals));
-    return shape;
+    RW::Tile_shape of_tile;  // but for the mesh
+
+    explicit Stored_shape(RW::Tile_shape shape = {}) : of_tile(std::move(shape)) {
+      const RW::Dual_mesh mesh = std::exchange(of_tile.mesh, {});
+      for (Index e = 0; mesh.has_walls() && e < mesh.number_of_edges(); ++e) is_wall.push_back(mesh.is_wall(e));
+      for (Index f = 0; f < mesh.number_of_faces(); ++f) {
+        for (const auto v : mesh.corners(f)) corners.add(v);
+        corners.end_face();
+        normals.push_back(mesh.shape_normal(f));
+      }
+      points = mesh.points();
+    }
+
+    RW::Tile_shape restored(const RW::Tile_plan& plan) && {
+      of_tile.mesh = RW::internal::part_of(plan, std::move(corners), std::move(points), std::move(is_wall))
+                         .with_shape_normals(std::move(normals));
+      return std::move(of_tile);
+    }
+
+    template <class Archive>
+    friend void transfer(Archive& a, Stored_shape& x) {
+      a(x.corners);
+      a(x.points);
+      a(x.normals);
+      a(x.is_wall);
+      a(x.of_tile.own_faces);
+      a(x.of_tile.halo);
+      a(x.of_tile.shared_edges);
+    }
+  };
+
+  void shape(std::size_t tile) const {
+    const auto parts = read_parts();
+    const auto noises = folder_.read<std::vector<RW::internal::Noise_of_mesh>>("noise_of_all");
+    const auto pieces = folder_.read_pieces(parts, tile);
+    const auto borders = folder_.read_neighbours_of_pieces<RW::Tile_border>("border", parts, tile);
+    std::vector<Stored_shape> shapes;
+    std::vector<RW::Tile_outline> outlines;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      RW::Shaped_tile shaped = RW::shape_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), borders[p],
+                                                 noises[parts.places[tile][p].part], method_);
+      shapes.emplace_back(std::move(shaped.shape));
+      outlines.push_back(std::move(shaped.outline));
+    }
+    folder_.write_of_tile(tile, "shape", shapes);
+    folder_.write_of_tile(tile, "outline", outlines);
+  }
+
+  /// By piece.
+  std::vector<RW::Tile_shape> read_shapes(const RW::Tile_parts& parts, std::size_t tile) const {
+    std::vector<RW::Tile_shape> shapes;
+    for (Stored_shape& stored : folder_.read<std::vector<Stored_shape>>("shape", tile))
+      shapes.push_back(std::move(stored).restored(parts.place_of(folder_.piece(tile, shapes.size())).plan));
+    return shapes;
   }
 
   void places(std::size_t tile) const {
-    std::vector<RW::Tile_place> places;
+    std::vector<std::vector<RW::Tile_place>> places;  // by piece, of which there is one
     if (!seeds_.empty()) {
-      const auto plan = read_plan();
-      places = RW::places_in_tile(read_shape(plan, tile), plan, seeds_);
+      const auto parts = read_parts();
+      for (const RW::Tile_shape& shape : read_shapes(parts, tile))
+        places.push_back(RW::places_in_tile(shape, parts.parts.front().plan, seeds_));
     }
     folder_.write_of_tile(tile, "places", places);
   }
 
   void seeds() const {
-    const auto plan = read_plan();
-    const auto outlines = folder_.read_all<RW::Tile_outline>("outline");
-    folder_.write("seeds", seeds_.empty()
-                               ? RW::seeds_of_tiles(plan, outlines, method_)
-                               : RW::seeds_of_tiles(plan, outlines, seeds_,
-                                                    folder_.read_all<std::vector<RW::Tile_place>>("places")));
+    const auto parts = read_parts();
+    const auto outlines = folder_.read_parts<RW::Tile_outline>("outline", parts);
+    const double largest_area = parts.largest_area();
+    std::vector<RW::Tile_seeds> seeds;
+    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+      const auto& [plan, pieces, area] = parts.parts[p];
+      seeds.push_back(seeds_.empty() ? RW::seeds_of_tiles(plan, outlines[p], method_.of_part(area, largest_area))
+                                     : RW::seeds_of_tiles(
+                                           plan, outlines[p], seeds_,
+                                           folder_.read_parts<std::vector<RW::Tile_place>>("places", parts).front()));
+    }
+    folder_.write("seeds", seeds);
   }
 
   void clusters(std::size_t tile) const {
-    const auto plan = read_plan();
-    RW::Tile_network network;
-    const auto clusters =
-        RW::clusters_of_tile(read_shape(plan, tile), {tile, plan}, folder_.read<RW::Tile_border>("border", tile),
-                             folder_.read<RW::Tile_seeds>("seeds"), network, method_);
+    const auto parts = read_parts();
+    const auto seeds = folder_.read<std::vector<RW::Tile_seeds>>("seeds");
+    const auto borders = folder_.read<std::vector<RW::Tile_border>>("border", tile);
+    const auto shapes = read_shapes(parts, tile);
+    std::vector<RW::Tile_clusters> clusters;
+    std::vector<RW::Tile_network> networks(shapes.size());
+    for (std::size_t p = 0; p < shapes.size(); ++p)
+      clusters.push_back(RW::clusters_of_tile(shapes[p], parts.place_of(folder_.piece(tile, p)), borders[p],
+                                              seeds[parts.places[tile][p].part], networks[p], method_));
     folder_.write_of_tile(tile, "clusters", clusters);
-    folder_.write_of_tile(tile, "network", network);
+    folder_.write_of_tile(tile, "network", networks);
   }
 
   void walk() const {
-    folder_.write("walk", RW::walk_over_tiles(read_plan(), folder_.read<RW::Tile_seeds>("seeds"),
-                                              folder_.read_all<RW::Tile_network>("network"), method_));
+    const auto parts = read_parts();
+    const auto seeds = folder_.read<std::vector<RW::Tile_seeds>>("seeds");
+    const auto networks = folder_.read_parts<RW::Tile_network>("network", parts);
+    std::vector<RW::Tile_walk> walks;
+    for (std::size_t p = 0; p < parts.parts.size(); ++p)
+      walks.push_back(RW::walk_over_tiles(parts.parts[p].plan, seeds[p], networks[p], method_));
+    folder_.write("walk", walks);
   }
 
   void fragments(std::size_t tile) const {
-    const auto plan = read_plan();
-    RW::Tile_regions regions;
-    const auto fragments = RW::fragments_of_tile({{tile, plan},
-                                                  read_shape(plan, tile),
-                                                  folder_.read<RW::Tile_clusters>("clusters", tile),
-                                                  folder_.read_neighbours<RW::Tile_border>("border", plan, tile),
-                                                  folder_.read_neighbours<RW::Tile_network>("network", plan, tile),
-                                                  folder_.read<RW::Tile_seeds>("seeds"),
-                                                  folder_.read<RW::Tile_walk>("walk")},
-                                                 regions);
+    const auto parts = read_parts();
+    const auto seeds = folder_.read<std::vector<RW::Tile_seeds>>("seeds");
+    const auto walks = folder_.read<std::vector<RW::Tile_walk>>("walk");
+    const auto clusters = folder_.read<std::vector<RW::Tile_clusters>>("clusters", tile);
+    const auto borders = folder_.read_neighbours_of_pieces<RW::Tile_border>("border", parts, tile);
+    const auto networks = folder_.read_neighbours_of_pieces<RW::Tile_network>("network", parts, tile);
+    const auto shapes = read_shapes(parts, tile);
+    std::vector<RW::Tile_regions> regions(shapes.size());
+    std::vector<std::vector<Index>> fragments;  // by piece and face
+    for (std::size_t p = 0; p < shapes.size(); ++p) {
+      const std::size_t part = parts.places[tile][p].part;
+      fragments.push_back(RW::fragments_of_tile({parts.place_of(folder_.piece(tile, p)), shapes[p], clusters[p],
+                                                 borders[p], networks[p], seeds[part], walks[part]},
+                                                regions[p]));
+    }
     folder_.write_of_tile(tile, "fragments", fragments);
     folder_.write_of_tile(tile, "regions", regions);
   }
 
   void merge() const {
-    const auto regions = folder_.read_all<RW::Tile_regions>("regions");
-    const auto walk = folder_.read<RW::Tile_walk>("walk");
-    const RW::Merge_tree tree =
-        seeds_.empty() ? RW::merge_tiles(walk, regions) : RW::Merge_tree(walk.number_of_fragments, {});
-    std::vector<double> areas(walk.number_of_fragments, 0.);
-    for (const RW::Tile_regions& tile : regions)
-      for (std::size_t i = 0; i < tile.fragments.size(); ++i) areas[tile.fragments[i]] += tile.regions[i].size.area;
-    std::vector<std::array<Index, 2>> neighbours;  // across walls as well: their colours must differ
-    for (const RW::Tile_regions& tile : regions)
-      neighbours.insert(neighbours.end(), tile.walls.begin(), tile.walls.end());
-    for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) neighbours.push_back(boundary.regions);
-    const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : walk.number_of_fragments;
-    Tile_segments segments = tile_segments(tree, options_.segments.value_or(suggested), areas, neighbours);
+    const auto parts = read_parts();
+    const auto regions = folder_.read_parts<RW::Tile_regions>("regions", parts);
+    const auto walks = folder_.read<std::vector<RW::Tile_walk>>("walk");
+    Merged_parts merged(parts);
+    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+      const RW::Tile_walk& walk = walks[p];
+      merged.add_part(seeds_.empty() ? RW::merge_tiles(walk, regions[p])
+                                     : RW::Merge_tree(walk.number_of_fragments, {}));
+      for (const RW::Tile_regions& piece : regions[p]) {
+        for (std::size_t i = 0; i < piece.fragments.size(); ++i)
+          merged.add_area(piece.fragments[i], piece.regions[i].size.area);
+        merged.add_neighbours(piece.walls);  // their colours must differ as well
+      }
+      for (const auto& boundary : RW::internal::boundaries_of_tiles(regions[p]))
+        merged.add_neighbours({boundary.regions});
+    }
+    const RW::Merge_tree tree = merged.tree();
+    const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : tree.number_of_fragments();
+    Tile_segments segments = merged.segments(tree, options_.segments.value_or(suggested));
     segments.suggested = suggested;
-    segments.components = walk.components;
-    const auto seeds = folder_.read<RW::Tile_seeds>("seeds");
-    segments.turned_sides = seeds.turned_sides;
-    segments.walls = seeds.walls;
+    segments.components = 0;
+    for (const RW::Tile_walk& walk : walks) segments.components += walk.components;
+    for (const RW::Tile_seeds& seeds : folder_.read<std::vector<RW::Tile_seeds>>("seeds")) {
+      segments.turned_sides += seeds.turned_sides;
+      segments.walls += seeds.walls;
+    }
     folder_.write("segments", segments);
   }
 

@@ -77,9 +77,11 @@ class Work_folder {
 };
 
 constexpr const char* seeds_file = "seeds.json";
+constexpr const char* parting_file = "parting";
 
-/// Forgets what has been left by the steps from the second one on, if a tile has changed, by those that seeds matter to, if
-/// the user gives others, and in any case by those that tell of levels.
+/// Forgets what has been left by all steps, if parts are taken together that were not or the other way round; by those from
+/// the second one on, if a tile has changed; by those that seeds matter to, if the user gives others; and in any case by those
+/// that tell of levels.
 void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   bool is_any_new = false;
   for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) {
@@ -87,13 +89,15 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
     is_any_new = is_any_new || !steps.is_done(steps.named("survey"), t);
   }
   const bool has_other_seeds = folder.holds_other(seeds_file, steps.seeds_in_words());
-  const std::string first = is_any_new ? "plan" : has_other_seeds ? "places" : "merge";
+  const bool is_parted_otherwise = folder.holds_other(parting_file, steps.parting_in_words());
+  const std::string first = is_parted_otherwise ? "survey" : is_any_new ? "plan" : has_other_seeds ? "places" : "merge";
   bool is_old = false;
   for (const Tile_step& step : steps.all()) {
     is_old = is_old || step.name == first;
     for (std::size_t t = 0; is_old && t < (step.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
       steps.forget(step, t);
   }
+  folder.keep(parting_file, steps.parting_in_words());
   folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
@@ -163,9 +167,11 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   folder.claim(steps.parameters());
   survive_signals();
   if (!options.tile_step.empty()) {
-    if (folder.holds_other(seeds_file, steps.seeds_in_words()))
+    if (folder.holds_other(seeds_file, steps.seeds_in_words()) ||
+        folder.holds_other(parting_file, steps.parting_in_words()))
       throw Argument_out_of_range("--tile-folder " + folder.path() +
                                   " holds the work from other seeds: give another folder, or leave --tile-step out");
+    folder.keep(parting_file, steps.parting_in_words());
     folder.keep(seeds_file, steps.seeds_in_words());
     const Tile_step& step = steps.named(options.tile_step);
     if (step.is_of_each_tile != options.tile.has_value())

@@ -41,6 +41,7 @@ void transfer(Archive& a, Tile& x) {
 template <class Archive>
 void transfer(Archive& a, Tile_survey& x) {
   a(x.faces);
+  a(x.vertices);
   a(x.area);
   a(x.box.min());
   a(x.box.max());
@@ -57,6 +58,7 @@ void transfer(Archive& a, Tile_plan::Shared_vertex& x) {
 template <class Archive>
 void transfer(Archive& a, Tile_plan::Of_tile& x) {
   a(x.area_before);
+  a(x.faces_before);
   a(x.shared_vertices);
   a(x.neighbours);
 }
@@ -67,7 +69,39 @@ void transfer(Archive& a, Tile_plan& x) {
   a(x.box.rounding);
   a(x.total_area);
   a(x.faces);
+  a(x.faces_of_mesh);
   a(x.tiles);
+}
+
+template <class Archive>
+void transfer(Archive& a, Tile_piece& x) {
+  a(x.tile);
+  a(x.faces);
+}
+template <class Archive>
+void transfer(Archive& a, Tile_parts::Piece& x) {
+  a(x.tile);
+  a(x.place);
+}
+template <class Archive>
+void transfer(Archive& a, Tile_parts::Part& x) {
+  a(x.plan);
+  a(x.pieces);
+  a(x.area);
+}
+template <class Archive>
+void transfer(Archive& a, Tile_parts::Place& x) {
+  a(x.part);
+  a(x.number);
+}
+template <class Archive>
+void transfer(Archive& a, Tile_parts& x) {
+  a(x.box.unit);
+  a(x.box.origin);
+  a(x.box.rounding);
+  a(x.parts);
+  a(x.places);
+  a(x.piece_of_connected);
 }
 
 template <class Archive>
@@ -263,6 +297,12 @@ inline void transfer(segment_mesh::Step_reader& reader, Face_corners& faces) {
     for (std::size_t k = 0; k < size; ++k) faces.add(corners.at(next++));
     faces.end_face();
   }
+}
+
+template <class Archive>
+void transfer(Archive& a, Noise_of_mesh& x) {
+  a(x.turn);
+  a(x.smoother_turn);
 }
 
 template <class Archive>

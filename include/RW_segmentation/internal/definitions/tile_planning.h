@@ -3,12 +3,14 @@
 #ifndef RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_PLANNING_H
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_TILE_PLANNING_H
 
+#include <RW_segmentation/Dual_graph.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/check_number.h>
 #include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/tiles/Edge_set.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
-#include <RW_segmentation/tiled_segmentation.h>
+#include <RW_segmentation/tile_plan.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 
@@ -17,7 +19,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -25,9 +29,6 @@
 #include <vector>
 
 namespace RW_segmentation {
-
-RW_SEGMENTATION_INLINE Tiled_segmentation::Tiled_segmentation(std::size_t segments)
-    : seeds(std::max(std::size_t(40), 2 * segments)) {}
 
 namespace internal {
 
@@ -77,6 +78,7 @@ RW_SEGMENTATION_INLINE Tile_survey survey_tile(const Tile& tile) {
   internal::check_tile(tile);
   Tile_survey survey;
   survey.faces = tile.number_of_faces();
+  survey.vertices = tile.points.size();
   for (Dual_mesh::Index f = 0; f < survey.faces; ++f) {
     survey.area += internal::area_of(tile.corners[f], tile.points);
     for (const auto v : tile.corners[f]) survey.box.extend(tile.points[v]);
@@ -170,8 +172,9 @@ class Border_matching {
 };
 
 /// Tells tiles which of their vertices others have, too.
-inline void share_vertices(const std::vector<Tile_survey>& surveys, Border_matching& matching,
-                           std::vector<Tile_plan::Of_tile>& tiles) {
+/// \param together numbers of the tiles; those of the same number do not meet
+inline void share_vertices(const std::vector<Tile_survey>& surveys, const std::vector<Dual_mesh::Index>& together,
+                           Border_matching& matching, std::vector<Tile_plan::Of_tile>& tiles) {
   using Index = Dual_mesh::Index;
   struct Place {
     Index id, tile, vertex;
@@ -188,11 +191,14 @@ inline void share_vertices(const std::vector<Tile_survey>& surveys, Border_match
   Index id = 0;
   for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
     while (end < places.size() && places[end].id == places[begin].id) ++end;
-    if (places[end - 1].tile == places[begin].tile) continue;
+    const auto are_apart = [&](std::size_t i, std::size_t j) {
+      return together[places[i].tile] != together[places[j].tile];
+    };
+    if (!are_apart(begin, end - 1)) continue;  // numbers rise with the tiles
     for (std::size_t i = begin; i < end; ++i) {
       tiles[places[i].tile].shared_vertices.push_back({places[i].vertex, id});
       for (std::size_t j = begin; j < end; ++j)
-        if (places[j].tile != places[i].tile) tiles[places[i].tile].neighbours.push_back(places[j].tile);
+        if (are_apart(i, j)) tiles[places[i].tile].neighbours.push_back(places[j].tile);
     }
     ++id;
   }
@@ -205,9 +211,9 @@ inline void share_vertices(const std::vector<Tile_survey>& surveys, Border_match
   }
 }
 
-}  // namespace internal
-
-RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance) {
+/// \param together rising numbers of the tiles; those of the same number do not meet
+inline Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, const std::vector<Dual_mesh::Index>& together,
+                            double tolerance) {
   if (!(tolerance >= 0) || !std::isfinite(tolerance))
     throw internal::argument_error("tolerance", tolerance, "a finite number >= 0");
   Tile_plan plan;
@@ -226,6 +232,8 @@ RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surv
   plan.box = internal::Unit_box(corners_of_boxes);
   for (std::size_t t = 0; t < surveys.size(); ++t) {
     plan.tiles[t].area_before = plan.total_area;
+    plan.tiles[t].faces_before = plan.faces_of_mesh;
+    plan.faces_of_mesh += surveys[t].faces;
     plan.total_area += surveys[t].area / (plan.box.unit * plan.box.unit);
   }
   internal::Border_matching matching(surveys);
@@ -235,8 +243,237 @@ RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surv
     matching.match_near(tolerance);
   else
     matching.match_places();
-  internal::share_vertices(surveys, matching, plan.tiles);
+  internal::share_vertices(surveys, together, matching, plan.tiles);
   return plan;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surveys, double tolerance) {
+  std::vector<Dual_mesh::Index> numbers(surveys.size());
+  std::iota(numbers.begin(), numbers.end(), Dual_mesh::Index(0));
+  return internal::plan_tiles(surveys, numbers, tolerance);
+}
+
+// ---- Parts ----
+
+namespace internal {
+
+/// The component of each face, over sides.
+inline Components components_over_sides(const Tile& tile) {
+  Joined_faces joined(tile.corners, tile.points.size());
+  return {Dual_graph(tile.number_of_faces(), std::move(joined.sides)), [](Dual_mesh::Index) { return true; }};
+}
+
+/// Some faces of a tile as a tile of their own, without walls.
+/// \param number by vertex, `none`; it is left as it was
+inline Tile tile_of_faces(const Tile& tile, const std::vector<Dual_mesh::Index>& faces,
+                          std::vector<Dual_mesh::Index>& number) {
+  using Index = Dual_mesh::Index;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  Tile piece;
+  std::vector<Index> vertices;
+  for (const Index f : faces) {
+    for (const Index v : tile.corners[f]) {
+      if (number[v] == none) {
+        number[v] = static_cast<Index>(vertices.size());
+        vertices.push_back(v);
+      }
+      piece.corners.add(number[v]);
+    }
+    piece.corners.end_face();
+  }
+  for (const Index v : vertices) {
+    piece.points.push_back(tile.points[v]);
+    if (!tile.vertex_ids.empty()) piece.vertex_ids.push_back(tile.vertex_ids[v]);
+    number[v] = none;
+  }
+  return piece;
+}
+
+/// Gives each piece of a tile the walls that are sides of its faces.
+inline void share_walls(const Tile& tile, std::vector<Tile_piece>& pieces) {
+  if (tile.walls.empty()) return;
+  using Index = Dual_mesh::Index;
+  const Edge_set walls(tile.walls);
+  for (auto& [piece, faces] : pieces) {
+    for (Index f = 0; f < faces.size(); ++f) {
+      const auto in_tile = tile.corners[faces[f]], in_piece = piece.corners[f];
+      for (std::size_t k = 0; k < in_tile.size(); ++k) {
+        const std::size_t next = k + 1 < in_tile.size() ? k + 1 : 0;
+        if (walls.contains({in_tile[k], in_tile[next]}))
+          piece.walls.push_back({std::min(in_piece[k], in_piece[next]), std::max(in_piece[k], in_piece[next])});
+      }
+    }
+    std::sort(piece.walls.begin(), piece.walls.end());
+    piece.walls.erase(std::unique(piece.walls.begin(), piece.walls.end()), piece.walls.end());
+  }
+}
+
+/// By tile of a plan: the lowest of those that it is connected to.
+inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan) {
+  boost::disjoint_sets_with_storage<> sets(plan.tiles.size());
+  for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece)
+    for (const auto neighbour : plan.tiles[piece].neighbours) sets.union_set(piece, std::size_t(neighbour));
+  std::vector<Dual_mesh::Index> lowest(plan.tiles.size(), std::numeric_limits<Dual_mesh::Index>::max());
+  std::vector<Dual_mesh::Index> connected;
+  for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece) {
+    auto& first = lowest[sets.find_set(piece)];
+    first = std::min(first, static_cast<Dual_mesh::Index>(piece));
+    connected.push_back(first);
+  }
+  return connected;
+}
+
+/// Takes a box that is too small for the exactness of coordinates to a least one.
+inline void widen_box(Tile_plan& plan, const Unit_box& whole) {
+  constexpr double least_unit = 1e-2;  // that of `Parts_in_boxes`
+  const double factor = std::max(least_unit * whole.unit / plan.box.unit, 1.);
+  plan.box.unit *= factor;
+  plan.box.rounding = std::max(plan.box.rounding, whole.rounding * whole.unit / plan.box.unit);
+  plan.total_area /= factor * factor;
+  for (Tile_plan::Of_tile& tile : plan.tiles) tile.area_before /= factor * factor;
+}
+
+/// Adds what has been found of another connected piece, whose vertices are numbered on.
+inline void join_survey(Tile_survey& survey, const Tile_survey& other) {
+  for (const Dual_mesh::Index vertex : other.border_vertices)
+    survey.border_vertices.push_back(static_cast<Dual_mesh::Index>(survey.vertices + vertex));
+  survey.border_points.insert(survey.border_points.end(), other.border_points.begin(), other.border_points.end());
+  survey.border_ids.insert(survey.border_ids.end(), other.border_ids.begin(), other.border_ids.end());
+  survey.faces += other.faces;
+  survey.vertices += other.vertices;
+  survey.area += other.area;
+  survey.box.extend(other.box);
+}
+
+/// Connected pieces of a tile as one, their vertices one piece after the other.
+inline Tile_piece joined_pieces(const std::vector<Tile_piece>& pieces) {
+  using Index = Dual_mesh::Index;
+  struct Source {
+    Index face;         // of the tile
+    std::size_t piece;  // its place
+    Index face_of_piece;
+  };
+  Tile_piece joined;
+  std::vector<Source> sources;
+  std::vector<Index> first_vertex;  // by piece
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Tile& tile = pieces[p].tile;
+    first_vertex.push_back(static_cast<Index>(joined.tile.points.size()));
+    for (Index f = 0; f < tile.number_of_faces(); ++f) sources.push_back({pieces[p].faces[f], p, f});
+    joined.tile.points.insert(joined.tile.points.end(), tile.points.begin(), tile.points.end());
+    joined.tile.vertex_ids.insert(joined.tile.vertex_ids.end(), tile.vertex_ids.begin(), tile.vertex_ids.end());
+    for (const auto& [u, v] : tile.walls) joined.tile.walls.push_back({first_vertex[p] + u, first_vertex[p] + v});
+  }
+  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.face < b.face; });
+  for (const auto& [face, p, face_of_piece] : sources) {
+    joined.faces.push_back(face);
+    for (const Index v : pieces[p].tile.corners[face_of_piece]) joined.tile.corners.add(first_vertex[p] + v);
+    joined.tile.corners.end_face();
+  }
+  return joined;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tile_piece whole_tile(Tile tile) {
+  std::vector<Dual_mesh::Index> faces(tile.number_of_faces());
+  std::iota(faces.begin(), faces.end(), Dual_mesh::Index(0));
+  return {std::move(tile), std::move(faces)};
+}
+
+RW_SEGMENTATION_INLINE std::vector<Tile_piece> connected_pieces(Tile tile) {
+  using Index = Dual_mesh::Index;
+  internal::check_tile(tile);
+  if (tile.number_of_faces() == 0) return {};
+  const internal::Components components = internal::components_over_sides(tile);
+  std::vector<Tile_piece> pieces;
+  if (components.count == 1) {
+    pieces.push_back(whole_tile(std::move(tile)));
+    return pieces;
+  }
+  pieces.resize(components.count);
+  for (Index f = 0; f < tile.number_of_faces(); ++f) pieces[components.of[f]].faces.push_back(f);
+  std::vector<Index> number(tile.points.size(), std::numeric_limits<Index>::max());
+  for (Tile_piece& piece : pieces) piece.tile = internal::tile_of_faces(tile, piece.faces, number);
+  internal::share_walls(tile, pieces);
+  return pieces;
+}
+
+RW_SEGMENTATION_INLINE double Tile_parts::largest_area() const {
+  double largest = 0;
+  for (const Part& part : parts) largest = std::max(largest, part.area);
+  return largest;
+}
+
+RW_SEGMENTATION_INLINE std::vector<Tile_parts::Piece> Tile_parts::neighbours(Piece piece) const {
+  const auto& [number, plan] = place_of(piece);
+  std::vector<Piece> result;
+  for (const auto n : plan.tiles[number].neighbours)
+    result.push_back(parts[places[piece.tile][piece.place].part].pieces[n]);
+  return result;
+}
+
+RW_SEGMENTATION_INLINE Tile_parts parts_of_tiles(const std::vector<std::vector<Tile_survey>>& surveys, double tolerance,
+                                                 bool by_component) {
+  using Index = Dual_mesh::Index;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Tile_survey> of_all;  // connected pieces, one tile after the other
+  std::vector<Index> tile_of;
+  for (std::size_t t = 0; t < surveys.size(); ++t) {
+    of_all.insert(of_all.end(), surveys[t].begin(), surveys[t].end());
+    tile_of.resize(of_all.size(), static_cast<Index>(t));
+  }
+  const Tile_plan all = internal::plan_tiles(of_all, tile_of, tolerance);
+  const std::vector<Index> lowest =
+      by_component ? internal::lowest_connected(all) : std::vector<Index>(of_all.size(), 0);
+
+  Tile_parts result;
+  result.box = all.box;
+  result.places.resize(surveys.size());
+  result.piece_of_connected.resize(surveys.size());
+  std::vector<std::vector<Tile_survey>> of_parts;  // by part and piece
+  std::vector<Index> part_of(of_all.size(), none);
+  for (std::size_t i = 0; i < of_all.size(); ++i) {
+    if (part_of[lowest[i]] == none) {
+      part_of[lowest[i]] = static_cast<Index>(result.parts.size());
+      result.parts.emplace_back();
+      of_parts.emplace_back();
+    }
+    const Index part = part_of[lowest[i]], tile = tile_of[i];
+    Tile_parts::Part& found = result.parts[part];
+    found.area += of_all[i].area;
+    if (found.pieces.empty() || found.pieces.back().tile != tile) {
+      const auto number = static_cast<Index>(found.pieces.size());
+      found.pieces.push_back({tile, static_cast<Index>(result.places[tile].size())});
+      result.places[tile].push_back({part, number});
+      found.plan.tiles.emplace_back().faces_before = all.tiles[i].faces_before;
+      of_parts[part].emplace_back();
+    }
+    result.piece_of_connected[tile].push_back(found.pieces.back().place);
+    internal::join_survey(of_parts[part].back(), of_all[i]);
+  }
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
+    Tile_parts::Part& part = result.parts[p];
+    Tile_plan plan = plan_tiles(of_parts[p], tolerance);
+    plan.faces_of_mesh = all.faces_of_mesh;
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) plan.tiles[i].faces_before = part.plan.tiles[i].faces_before;
+    internal::widen_box(plan, result.box);
+    part.plan = std::move(plan);
+  }
+  return result;
+}
+
+RW_SEGMENTATION_INLINE std::vector<Tile_piece> pieces_of_parts(std::vector<Tile_piece> connected,
+                                                               const Tile_parts& parts, std::size_t tile) {
+  std::vector<std::vector<Tile_piece>> of_pieces(parts.places[tile].size());
+  for (std::size_t c = 0; c < connected.size(); ++c)
+    of_pieces[parts.piece_of_connected[tile][c]].push_back(std::move(connected[c]));
+  std::vector<Tile_piece> pieces;
+  for (std::vector<Tile_piece>& together : of_pieces)
+    pieces.push_back(together.size() == 1 ? std::move(together.front()) : internal::joined_pieces(together));
+  return pieces;
 }
 
 }  // namespace RW_segmentation

@@ -17,6 +17,15 @@
 
 namespace RW_segmentation {
 
+RW_SEGMENTATION_INLINE Tiled_segmentation::Tiled_segmentation(std::size_t segments)
+    : seeds(std::max(std::size_t(40), 2 * segments)) {}
+
+RW_SEGMENTATION_INLINE Tiled_segmentation Tiled_segmentation::of_part(double area, double largest_area) const {
+  Tiled_segmentation result = *this;
+  if (area < least_component * largest_area) result.seeds = 1;
+  return result;
+}
+
 RW_SEGMENTATION_INLINE std::vector<std::vector<std::size_t>> Tiled_hierarchy::segments(
     std::size_t number_of_segments) const {
   const std::vector<std::size_t> segment = tree.segment_of_fragments(number_of_segments);
@@ -40,10 +49,10 @@ struct Walked_tiles {
 
 /// \param place_seeds a function from the plan, shapes and outlines of the tiles to their seeds
 template <class Place_seeds>
-Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Tiled_segmentation& options,
-                                       const Place_seeds& place_seeds, const Progress& progress) {
+Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Tile_plan& plan,
+                                       const Tiled_segmentation& options, const Place_seeds& place_seeds,
+                                       const Progress& progress) {
   const std::size_t count = tiles.size();
-  const Tile_plan plan = plan_in_memory(tiles, options.tolerance);
   const auto part = [&](double begin, double end, std::size_t t) {
     return progress_of_tile(progress, begin, end, t, count);
   };
@@ -83,14 +92,11 @@ Walked_tiles walk_over_tiles_in_memory(const std::vector<Tile>& tiles, const Til
   return walked;
 }
 
-}  // namespace internal
-
-RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
-                                                                    const Tiled_segmentation& options,
-                                                                    const Progress& progress) {
-  internal::Walked_tiles walked = internal::walk_over_tiles_in_memory(
-      tiles, options,
-      [&](const Tile_plan& plan, const std::vector<Tile_shape>&, const std::vector<Tile_outline>& outlines,
+inline Tiled_hierarchy hierarchy_of_part(const std::vector<Tile>& tiles, const Tile_plan& plan,
+                                         const Tiled_segmentation& options, const Progress& progress) {
+  Walked_tiles walked = walk_over_tiles_in_memory(
+      tiles, plan, options,
+      [&](const Tile_plan&, const std::vector<Tile_shape>&, const std::vector<Tile_outline>& outlines,
           const Progress& part) { return seeds_of_tiles(plan, outlines, options, part); },
       progress);
   Tiled_hierarchy hierarchy;
@@ -99,6 +105,35 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::v
   hierarchy.components = walked.walk.components;
   hierarchy.clusters = walked.walk.clusters;
   hierarchy.turned_sides = walked.seeds.turned_sides;
+  return hierarchy;
+}
+
+}  // namespace internal
+
+RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::vector<Tile>& tiles,
+                                                                    const Tiled_segmentation& options,
+                                                                    const Progress& progress) {
+  const internal::Tiles_of_parts whole(tiles, options.tolerance, options.by_component);
+  const double largest_area = whole.parts.largest_area();
+  Tiled_hierarchy hierarchy;
+  for (const Tile& tile : tiles) hierarchy.fragment_of_face.emplace_back(tile.number_of_faces());
+  std::vector<Merge_tree> trees;
+  std::size_t fragments = 0;
+  for (std::size_t p = 0; p < whole.tiles.size(); ++p) {
+    const auto& [plan, pieces, area] = whole.parts.parts[p];
+    Tiled_hierarchy part = internal::hierarchy_of_part(whole.tiles[p], plan, options.of_part(area, largest_area),
+                                                       internal::progress_of_part(progress, whole.parts, p));
+    whole.scatter(
+        whole.parts, p, part.fragment_of_face,
+        [&](std::size_t of_part) { return static_cast<Dual_mesh::Index>(fragments + of_part); },
+        hierarchy.fragment_of_face);
+    hierarchy.components += part.components;
+    hierarchy.clusters += part.clusters;
+    hierarchy.turned_sides += part.turned_sides;
+    fragments += part.tree.number_of_fragments();
+    trees.push_back(std::move(part.tree));
+  }
+  hierarchy.tree = internal::side_by_side(trees);
   progress(1);
   return hierarchy;
 }
@@ -112,7 +147,10 @@ RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> internal::segm
     for (const Tile_shape& shape : shapes) places.push_back(places_in_tile(shape, plan, seeds));
     return seeds_of_tiles(plan, outlines, seeds, places);
   };
-  internal::Walked_tiles walked = internal::walk_over_tiles_in_memory(tiles, options, given, progress);
+  std::vector<Tile_survey> surveys;
+  for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
+  const Tile_plan plan_of_all = plan_tiles(surveys, options.tolerance);
+  internal::Walked_tiles walked = internal::walk_over_tiles_in_memory(tiles, plan_of_all, options, given, progress);
   progress(1);
   return std::move(walked.fragment_of_face);
 }

@@ -96,9 +96,7 @@ inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, const Tile_i
     return place->second;
   };
   const auto& [tile, plan] = place;
-  const double share_before = plan.total_area > 0 ? plan.tiles[tile].area_before / plan.total_area : 0;
-  const auto faces_before = static_cast<std::size_t>(share_before * static_cast<double>(plan.faces));  // roughly
-  for (const Index f : noise_trials(mesh.number_of_faces(), plan.faces, faces_before)) {
+  for (const Index f : noise_trials(mesh.number_of_faces(), plan.faces_of_mesh, plan.tiles[tile].faces_before)) {
     for (const Index g : patches.neighbourhood(f, vertices).faces) copy(g);
     result.middles.push_back(copy(f));
   }
@@ -135,6 +133,33 @@ RW_SEGMENTATION_INLINE Surface_noise noise_of_tiles(const Tile_plan& plan,
       plan, tiles, [](const Tile_neighbourhoods& tile) -> const Sampled_faces& { return tile.faces; });
   const internal::Surface_tolerance tolerance = internal::surface_tolerance(mesh, options.noise, middles);
   return {tolerance.noise, tolerance.noise_kind};
+}
+
+RW_SEGMENTATION_INLINE Surface_noise noise_of_parts(const Tile_parts& parts,
+                                                    const std::vector<std::vector<Tile_neighbourhoods>>& pieces,
+                                                    const Tiled_surfaces& options) {
+  std::vector<Tile_neighbourhoods> all;
+  Tile_plan plan;  // of nothing but a box
+  for (const auto& of_tile : pieces) all.insert(all.end(), of_tile.begin(), of_tile.end());
+  for (const Tile_parts::Part& part : parts.parts)
+    plan.box.rounding = std::max(plan.box.rounding, part.plan.box.rounding);
+  if (!(options.noise >= 0)) {
+    const Surface_noise by_part = noise_of_tiles(plan, all, options);
+    if (by_part.deviation == 0) return by_part;
+  }
+  plan.box = parts.box;
+  auto neighbourhoods = all.begin();
+  for (const auto& of_tile : parts.places)
+    for (const auto& place : of_tile) {
+      const internal::Unit_box& box = parts.parts[place.part].plan.box;
+      for (Eigen::Vector3d& p : (neighbourhoods++)->faces.points)
+        p = (p * box.unit + (box.origin - parts.box.origin)) / parts.box.unit;
+    }
+  return noise_of_tiles(plan, all, options);
+}
+
+RW_SEGMENTATION_INLINE Surface_noise Surface_noise::in_part(const Tile_parts& parts, std::size_t part) const {
+  return {deviation * parts.box.unit / parts.parts[part].plan.box.unit, kind};
 }
 
 namespace internal {
@@ -417,39 +442,90 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_tiles(
   return surfaces;
 }
 
+// ---- Parts ----
+
+RW_SEGMENTATION_INLINE Merge_tree tree_of_parts(const std::vector<Part_surfaces>& parts) {
+  std::vector<Merge_tree> trees;
+  for (const Part_surfaces& part : parts) trees.push_back(part.merged.tree);
+  return internal::side_by_side(trees);
+}
+
+RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_parts(
+    const Tile_parts& parts, const Surface_noise& noise, const std::vector<Part_surfaces>& surfaces,
+    const std::vector<std::size_t>& segment_of_fragment, std::size_t number_of_segments) {
+  std::vector<Analytic_surface> result(number_of_segments);
+  std::size_t begin = 0;  // of the fragments of a part
+  for (std::size_t p = 0; p < surfaces.size(); ++p) {
+    const auto& [regions, merged] = surfaces[p];
+    std::vector<std::size_t> segments;  // of the part
+    std::unordered_map<std::size_t, std::size_t> number;
+    std::vector<std::size_t> segment_in_part;
+    for (std::size_t i = 0; i < merged.tree.number_of_fragments(); ++i) {
+      const std::size_t segment = segment_of_fragment.at(begin + i);
+      const auto [place, is_new] = number.emplace(segment, segments.size());
+      if (is_new) segments.push_back(segment);
+      segment_in_part.push_back(place->second);
+    }
+    const auto of_part = surfaces_of_tiles(parts.parts[p].plan, noise.in_part(parts, p), regions, merged,
+                                           segment_in_part, segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) result[segments[i]] = of_part[i];
+    begin += merged.tree.number_of_fragments();
+  }
+  return result;
+}
+
 // ---- All steps ----
 
 RW_SEGMENTATION_INLINE std::vector<Analytic_surface> Tiled_surface_hierarchy::surfaces(
     std::size_t number_of_segments) const {
-  return surfaces_of_tiles(plan, noise, regions, merged, tree.segment_of_fragments(number_of_segments),
-                           number_of_segments);
+  return surfaces_of_parts(parts, noise, of_parts, tree.segment_of_fragments(number_of_segments), number_of_segments);
 }
 
 RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiled_surfaces(const std::vector<Tile>& tiles,
                                                                                      const Tiled_surfaces& options,
                                                                                      const Progress& progress) {
-  const std::size_t count = tiles.size();
-  const auto part = [&](double begin, double end, std::size_t t) {
-    return progress_of_tile(progress, begin, end, t, count);
-  };
+  Tiles_of_parts whole(tiles, options.tolerance, true);
   Tiled_surface_hierarchy result;
-  result.plan = plan_in_memory(tiles, options.tolerance);
-  std::vector<Tile_border> borders;
-  std::vector<Tile_neighbourhoods> neighbourhoods(count);
-  for (std::size_t t = 0; t < count; ++t)
-    borders.push_back(border_of_tile(tiles[t], {t, result.plan}, neighbourhoods[t], options, part(0, 0.1, t)));
-  result.noise = noise_of_tiles(result.plan, neighbourhoods, options);
-  result.regions.resize(count);
-  for (std::size_t t = 0; t < count; ++t)
-    result.fragment_of_face.push_back(surfaces_of_tile(tiles[t], {t, result.plan},
-                                                       of_neighbours(result.plan, borders, t), result.noise,
-                                                       result.regions[t], options, part(0.1, 0.95, t)));
-  result.merged = merge_tiles(result.plan, result.noise, result.regions, progress.part(0.95, 1));
-  for (std::size_t t = 0; t < count; ++t)
-    for (Dual_mesh::Index& region : result.fragment_of_face[t]) region = result.merged.fragments[t][region];
-  result.tree = result.merged.tree;
+  result.parts = std::move(whole.parts);
+  const Tile_parts& parts = result.parts;
+  std::vector<std::vector<Tile_border>> borders;                 // by part and piece
+  std::vector<std::vector<Tile_neighbourhoods>> neighbourhoods;  // by tile and piece
+  for (const auto& of_tile : parts.places) neighbourhoods.emplace_back(of_tile.size());
+  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    progress(0.1 * static_cast<double>(p) / static_cast<double>(parts.parts.size()));
+    borders.emplace_back();
+    for (std::size_t i = 0; i < whole.tiles[p].size(); ++i) {
+      const auto& [tile, place] = parts.parts[p].pieces[i];
+      borders.back().push_back(
+          border_of_tile(whole.tiles[p][i], {i, parts.parts[p].plan}, neighbourhoods[tile][place], options, {}));
+    }
+  }
+  result.noise = noise_of_parts(parts, neighbourhoods, options);
+  for (const Tile& tile : tiles) result.fragment_of_face.emplace_back(tile.number_of_faces());
+  std::size_t fragments = 0;
+  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    const Tile_plan& plan = parts.parts[p].plan;
+    const Progress of_part = progress_of_part(progress.part(0.1, 1), parts, p);
+    const Surface_noise noise = result.noise.in_part(parts, p);
+    auto& [regions, merged] = result.of_parts.emplace_back();
+    regions.resize(whole.tiles[p].size());
+    std::vector<std::vector<Dual_mesh::Index>> region_of_face;
+    for (std::size_t i = 0; i < whole.tiles[p].size(); ++i)
+      region_of_face.push_back(surfaces_of_tile(whole.tiles[p][i], {i, plan}, of_neighbours(plan, borders[p], i), noise,
+                                                regions[i], options,
+                                                progress_of_tile(of_part, 0, 0.95, i, regions.size())));
+    merged = merge_tiles(plan, noise, regions, of_part.part(0.95, 1));
+    for (std::size_t i = 0; i < region_of_face.size(); ++i)
+      for (Dual_mesh::Index& region : region_of_face[i]) region = merged.fragments[i][region];
+    whole.scatter(
+        parts, p, region_of_face, [&](std::size_t f) { return static_cast<Dual_mesh::Index>(fragments + f); },
+        result.fragment_of_face);
+    fragments += merged.tree.number_of_fragments();
+    result.turned_sides += merged.turned_sides;
+    result.walls += merged.walls;
+  }
+  result.tree = tree_of_parts(result.of_parts);
   result.components = result.tree.number_of_components();
-  result.turned_sides = result.merged.turned_sides;
   progress(1);
   return result;
 }

@@ -4,20 +4,57 @@
 #define RW_SEGMENTATION_INTERNAL_TILES_STEPS_IN_MEMORY_H
 
 #include <RW_segmentation/Progress.h>
-#include <RW_segmentation/tiled_segmentation.h>
+#include <RW_segmentation/tile_plan.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
 
 // What the steps share where all tiles are in memory.
 
-inline Tile_plan plan_in_memory(const std::vector<Tile>& tiles, double tolerance) {
-  std::vector<Tile_survey> surveys;
-  for (const Tile& tile : tiles) surveys.push_back(survey_tile(tile));
-  return plan_tiles(surveys, tolerance);
-}
+/// The tiles of each part of a mesh.
+struct Tiles_of_parts {
+  Tile_parts parts;
+  std::vector<std::vector<Tile>> tiles;                           ///< by part, and in the order of its plan
+  std::vector<std::vector<std::vector<Dual_mesh::Index>>> faces;  ///< of these, by their numbers in the tile
+
+  /// \param by_component otherwise all tiles are one part
+  Tiles_of_parts(const std::vector<Tile>& whole, double tolerance, bool by_component) {
+    std::vector<std::vector<Tile_piece>> pieces;
+    std::vector<std::vector<Tile_survey>> surveys;
+    for (const Tile& tile : whole) {
+      if (by_component)
+        pieces.push_back(connected_pieces(tile));
+      else
+        pieces.emplace_back().push_back(whole_tile(tile));
+      surveys.emplace_back();
+      for (const Tile_piece& piece : pieces.back()) surveys.back().push_back(survey_tile(piece.tile));
+    }
+    parts = parts_of_tiles(surveys, tolerance, by_component);
+    for (std::size_t t = 0; t < pieces.size(); ++t) pieces[t] = pieces_of_parts(std::move(pieces[t]), parts, t);
+    for (const Tile_parts::Part& part : parts.parts) {
+      tiles.emplace_back();
+      faces.emplace_back();
+      for (const auto& [tile, place] : part.pieces) {
+        tiles.back().push_back(std::move(pieces[tile][place].tile));
+        faces.back().push_back(std::move(pieces[tile][place].faces));
+      }
+    }
+  }
+
+  /// Writes what is known by face of the tiles of a part into what is by face of the whole tiles.
+  /// \param of_mesh the parts, wherever they are by now
+  /// \param whole by tile and face, large enough
+  template <class Value, class Convert>
+  void scatter(const Tile_parts& of_mesh, std::size_t part, const std::vector<std::vector<Value>>& of_part,
+               const Convert& convert, std::vector<std::vector<Value>>& whole) const {
+    for (std::size_t i = 0; i < of_part.size(); ++i)
+      for (std::size_t f = 0; f < of_part[i].size(); ++f)
+        whole[of_mesh.parts[part].pieces[i].tile][faces[part][i][f]] = convert(of_part[i][f]);
+  }
+};
 
 /// What a tile's neighbours left, in their order.
 template <class OfTile>
@@ -33,6 +70,19 @@ inline Progress progress_of_tile(const Progress& progress, double begin, double 
                                  std::size_t tiles) {
   const double share = (end - begin) / static_cast<double>(tiles);
   return progress.part(begin + static_cast<double>(tile) * share, begin + static_cast<double>(tile + 1) * share);
+}
+
+/// The progress of a part, by its faces.
+inline Progress progress_of_part(const Progress& progress, const Tile_parts& parts, std::size_t part) {
+  std::size_t before = 0, all = 0;
+  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    all += parts.parts[p].plan.faces;
+    if (p < part) before += parts.parts[p].plan.faces;
+  }
+  const auto share = [&](std::size_t faces) {
+    return all > 0 ? static_cast<double>(faces) / static_cast<double>(all) : 1;
+  };
+  return progress.part(share(before), share(before + parts.parts[part].plan.faces));
 }
 
 }  // namespace RW_segmentation::internal

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+
+// Connected parts of a mesh that comes in tiles, beside each part by itself.
+
+#include <RW_segmentation/tile_plan.h>
+
+#include <RW_segmentation/Merge_tree.h>
+#include <RW_segmentation/Tile.h>
+#include <RW_segmentation/tiled_segmentation.h>
+#include <RW_segmentation/tiled_surfaces.h>
+
+#include <Eigen/Core>
+
+#include <gtest/gtest.h>
+#include "../benchmark/segmentation_measures.h"
+#include "cut_into_tiles.h"
+#include "meshes.h"
+#include "solids.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace test_tile_parts {
+
+using namespace RW_segmentation;
+using namespace tiles;
+
+namespace {
+
+using Index = Dual_mesh::Index;
+using Labels = std::vector<std::size_t>;
+using meshes::Shape;
+
+Shape dumbbell(std::size_t around = 24) { return meshes::two_spheres_with_neck(2.0001, 0.1, around); }
+
+/// Shapes in a row along x, a gap apart; tiles of half that size cut through most of them.
+Shape in_a_row(const std::vector<Shape>& shapes) {
+  constexpr double gap = 3;
+  Shape row;
+  double x = 0;
+  for (const Shape& shape : shapes) row = meshes::together(row, meshes::moved(shape, {x += gap, 0, 0}));
+  return row;
+}
+
+Cut_mesh in_cells(const Shape& shape, std::size_t tiles) {
+  return cut(shape, tiles, [&](const Eigen::Vector3d& p) {
+    const auto cell = static_cast<std::size_t>((p[0] + 1000) / 1.3) + static_cast<std::size_t>(p[2] > 0.2);
+    return cell % tiles;
+  });
+}
+
+std::size_t number_of(const Labels& labels) { return std::set<std::size_t>(labels.begin(), labels.end()).size(); }
+
+/// The labels of one shape of a row.
+Labels part_of(const Labels& labels, const std::vector<Shape>& shapes, std::size_t part) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < part; ++i) begin += shapes[i].faces.size();
+  const auto at = [&](std::size_t face) { return labels.begin() + static_cast<std::ptrdiff_t>(face); };
+  return {at(begin), at(begin + shapes[part].faces.size())};
+}
+
+template <class Hierarchy>
+Labels by_shape(const Cut_mesh& mesh, const Hierarchy& hierarchy) {
+  return mesh.of_whole(hierarchy.segments(Cost_threshold_stop(1)(hierarchy.tree)));
+}
+
+double rand_error(const Labels& a, const Labels& b) { return segmentation_measures::Overlaps(a, b).rand_index_error(); }
+
+Tile_parts parts_of(const std::vector<Tile>& tiles, bool by_component = true) {
+  std::vector<std::vector<Tile_survey>> surveys;
+  for (const Tile& tile : tiles) {
+    surveys.emplace_back();
+    for (const Tile_piece& piece : connected_pieces(tile)) surveys.back().push_back(survey_tile(piece.tile));
+  }
+  return parts_of_tiles(surveys, 0, by_component);
+}
+
+}  // namespace
+
+// ---- Pieces ----
+
+TEST(ConnectedPieces, AreFacesOfATileWithTheirVerticesIdsAndWalls) {
+  Tile tile = as_tile(meshes::together(meshes::cube(2), meshes::moved(meshes::plane(3), {0, 0, 5})));
+  for (std::uint64_t v = 0; v < tile.points.size(); ++v) tile.vertex_ids.push_back(100 + v);
+  const auto last = static_cast<Index>(tile.number_of_faces() - 1);
+  const auto side_of = [&](Index face) { return std::array{tile.corners[face][0], tile.corners[face][1]}; };
+  tile.walls = {side_of(5), side_of(last)};
+  const std::vector<Tile_piece> pieces = connected_pieces(tile);
+  ASSERT_EQ(pieces.size(), 2U);
+  std::vector<int> seen(tile.number_of_faces(), 0);
+  for (const auto& [piece, faces] : pieces) {
+    ASSERT_EQ(piece.number_of_faces(), faces.size());
+    EXPECT_TRUE(std::is_sorted(faces.begin(), faces.end()));
+    EXPECT_EQ(piece.walls.size(), 1U);
+    for (Index f = 0; f < faces.size(); ++f) {
+      ++seen[faces[f]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index of_piece = piece.corners[f][k], of_tile = tile.corners[faces[f]][k];
+        EXPECT_EQ(piece.points[of_piece], tile.points[of_tile]);
+        EXPECT_EQ(piece.vertex_ids[of_piece], tile.vertex_ids[of_tile]);
+      }
+    }
+    EXPECT_NO_THROW(survey_tile(piece));  // which refuses walls that are no sides
+  }
+  EXPECT_EQ(seen, std::vector<int>(tile.number_of_faces(), 1));
+  EXPECT_EQ(pieces[0].faces.size(), 48U);
+}
+
+TEST(ConnectedPieces, OfOneComponentAreTheTile) {
+  const Tile tile = as_tile(meshes::cube(2));
+  const auto pieces = connected_pieces(tile);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].tile.points, tile.points);
+  EXPECT_EQ(pieces[0].faces.size(), tile.number_of_faces());
+  EXPECT_TRUE(connected_pieces(Tile()).empty());
+}
+
+TEST(ConnectedPieces, AreNotMadeOfATileThatIsWrong) {
+  Tile tile;
+  tile.points = {{0, 0, 0}, {1, 0, 0}};
+  for (const Index v : {0U, 1U, 2U}) tile.corners.add(v);
+  tile.corners.end_face();
+  EXPECT_THROW(connected_pieces(tile), std::invalid_argument);
+}
+
+// ---- Parts ----
+
+TEST(PartsOfTiles, AreThePiecesThatMeetEachWithThePlanThatItHasAlone) {
+  const std::vector<Shape> shapes = {dumbbell(), meshes::scaled(meshes::cube(8), 1.2), meshes::sphere(2)};
+  const Cut_mesh mesh = in_cells(in_a_row(shapes), 4);
+  const Tile_parts parts = parts_of(mesh.tiles);
+  ASSERT_EQ(parts.parts.size(), 3U);
+  std::size_t faces = 0, pieces = 0;
+  double area = 0;
+  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    const auto& [plan, of_part, area_of_part] = parts.parts[p];
+    faces += plan.faces;
+    area += area_of_part;
+    pieces += of_part.size();
+    EXPECT_EQ(plan.tiles.size(), of_part.size());
+    EXPECT_EQ(plan.faces_of_mesh, mesh.place.size());
+    for (std::size_t i = 0; i < of_part.size(); ++i) {
+      const auto& [part, number] = parts.places[of_part[i].tile][of_part[i].place];
+      EXPECT_EQ(part, p);
+      EXPECT_EQ(number, i);
+      for (const auto& neighbour : parts.neighbours(of_part[i])) {
+        EXPECT_EQ(parts.places[neighbour.tile][neighbour.place].part, p);
+        EXPECT_NE(neighbour.tile, of_part[i].tile);
+      }
+    }
+  }
+  EXPECT_GT(pieces, 2 * parts.parts.size());  // tiles do cut through parts
+  EXPECT_EQ(faces, mesh.place.size());
+  std::vector<Tile_survey> surveys;
+  for (const Tile& tile : mesh.tiles) surveys.push_back(survey_tile(tile));
+  const Tile_plan whole = plan_tiles(surveys);
+  EXPECT_NEAR(area, whole.total_area * whole.box.unit * whole.box.unit, 1e-9);
+  EXPECT_EQ(parts.box.unit, whole.box.unit);
+
+  const Tile_parts together = parts_of(mesh.tiles, false);
+  ASSERT_EQ(together.parts.size(), 1U);
+  EXPECT_EQ(together.parts.front().plan.faces, mesh.place.size());
+}
+
+TEST(PartsOfTiles, FarSmallerThanTheWholeHaveABoxOfAHundredth) {
+  const Cut_mesh mesh =
+      in_cells(meshes::together(meshes::scaled(meshes::cube(2), 1000), meshes::moved(meshes::cube(2), {-5, 0, 0})), 3);
+  const Tile_parts parts = parts_of(mesh.tiles);
+  ASSERT_EQ(parts.parts.size(), 2U);
+  std::array<double, 2> units{}, areas{};
+  for (std::size_t p = 0; p < 2; ++p) {
+    const auto& plan = parts.parts[p].plan;
+    units[p] = plan.box.unit;
+    areas[p] = plan.total_area * plan.box.unit * plan.box.unit;
+    EXPECT_NEAR(areas[p], parts.parts[p].area, 1e-9 * parts.parts[p].area);
+  }
+  EXPECT_NEAR(*std::min_element(units.begin(), units.end()), parts.box.unit / 100, 1e-12 * parts.box.unit);
+  EXPECT_NEAR(*std::min_element(areas.begin(), areas.end()), 6, 1e-9);
+}
+
+// ---- Segments ----
+
+TEST(TiledParts, HaveTheSegmentsThatEachHasByItself) {
+  const std::vector<Shape> shapes = {dumbbell(), meshes::scaled(dumbbell(32), 0.4), meshes::sphere(3), dumbbell(20)};
+  const Cut_mesh mesh = in_cells(in_a_row(shapes), 5);
+  const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
+  EXPECT_EQ(hierarchy.components, 4U);
+  EXPECT_EQ(hierarchy.tree.number_of_components(), 4U);
+  const Labels labels = by_shape(mesh, hierarchy);
+  for (std::size_t part = 0; part < shapes.size(); ++part) {
+    // The same faces in the same tiles, and nothing else in them.
+    Shape alone = in_a_row(shapes);
+    std::vector<std::vector<std::size_t>> faces;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < part; ++i) first += shapes[i].faces.size();
+    for (std::size_t f = 0; f < shapes[part].faces.size(); ++f) faces.push_back(alone.faces[first + f]);
+    alone.faces = faces;
+    const Cut_mesh cut_alone = in_cells(alone, 5);
+    const Labels of_part = part_of(labels, shapes, part),
+                 by_itself = by_shape(cut_alone, hierarchy_of_tiles(cut_alone.tiles));
+    EXPECT_EQ(number_of(of_part), number_of(by_itself));
+    EXPECT_EQ(rand_error(of_part, by_itself), 0);
+  }
+  EXPECT_EQ(number_of(part_of(labels, shapes, 1)), 2U);
+}
+
+TEST(TiledParts, AreTakenTogetherWhereTheOptionsSaySo) {
+  const std::vector<Shape> shapes(20, dumbbell(16));
+  const Cut_mesh mesh = in_cells(in_a_row(shapes), 3);
+  EXPECT_EQ(number_of(by_shape(mesh, hierarchy_of_tiles(mesh.tiles))), 40U);
+  Tiled_segmentation options;
+  options.by_component = false;
+  EXPECT_LT(number_of(by_shape(mesh, hierarchy_of_tiles(mesh.tiles, options))), 40U);
+}
+
+TEST(TiledParts, FarSmallerThanTheLargestAreOneSegment) {
+  const std::vector<Shape> shapes = {meshes::scaled(dumbbell(), 1.2), meshes::scaled(dumbbell(), 0.11)};
+  const Cut_mesh mesh = in_cells(in_a_row(shapes), 4);
+  const Labels labels = by_shape(mesh, hierarchy_of_tiles(mesh.tiles));
+  EXPECT_EQ(number_of(part_of(labels, shapes, 0)), 2U);
+  EXPECT_EQ(number_of(part_of(labels, shapes, 1)), 1U);
+  Tiled_segmentation options;
+  options.least_component = 0;
+  EXPECT_EQ(number_of(part_of(by_shape(mesh, hierarchy_of_tiles(mesh.tiles, options)), shapes, 1)), 2U);
+}
+
+TEST(TiledParts, GetEveryNumberOfSegmentsTogether) {
+  const Cut_mesh mesh = in_cells(in_a_row({dumbbell(16), meshes::sphere(2), dumbbell(16)}), 3);
+  const Tiled_hierarchy hierarchy = hierarchy_of_tiles(mesh.tiles);
+  for (std::size_t n = 3; n <= hierarchy.tree.number_of_fragments(); n += 4)
+    EXPECT_EQ(number_of(mesh.of_whole(hierarchy.segments(n))), n);
+  EXPECT_THROW(hierarchy.segments(2), std::invalid_argument);
+}
+
+// ---- Surfaces ----
+
+TEST(TiledPartsOfAnAssembly, AreAsExactAsByThemselves) {
+  // A shaft and a copy of a thirtieth of its size, whose fillets are finer than what counts as exact on the whole.
+  const solids::Solid solid = solids::stepped_shaft(solids::by_kernel());
+  const Shape shape = {solid.points, solid.faces};
+  const std::vector<Shape> shapes = {shape, meshes::scaled(shape, 1. / 30)};
+  const Cut_mesh mesh = in_cells(meshes::together(shape, meshes::moved(shapes[1], {9, 9, 9})), 3);
+  const Tiled_surface_hierarchy hierarchy = hierarchy_of_tiled_surfaces(mesh.tiles);
+  const Labels labels = by_shape(mesh, hierarchy);
+  EXPECT_EQ(hierarchy.noise.deviation, 0);
+  for (std::size_t part = 0; part < 2; ++part) EXPECT_LE(rand_error(part_of(labels, shapes, part), solid.label), 0.002);
+  // Their surfaces are told in the coordinates of the tiles.
+  const std::size_t segments = Cost_threshold_stop(1)(hierarchy.tree);
+  const auto surfaces = hierarchy.surfaces(segments);
+  ASSERT_EQ(surfaces.size(), segments);
+  std::array<double, 2> largest_radius{};
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    const Analytic_surface& surface = surfaces[labels[f]];
+    double& largest = largest_radius[f < shape.faces.size() ? 0 : 1];
+    if (surface.type == Surface_type::cylinder) largest = std::max(largest, surface.radius);
+  }
+  EXPECT_NEAR(30 * largest_radius[1], largest_radius[0], 1e-6 * largest_radius[0]);
+}
+
+TEST(TiledPartsOfAnAssembly, AreAsNoisyAsTheWhole) {
+  const solids::Solid solid = solids::with_noise(solids::stepped_shaft(solids::even(0.2)), 0.1);
+  const Shape shape = {solid.points, solid.faces};
+  const Shape both = meshes::together(shape, meshes::moved(shape, {20, 0, 0}));
+  const auto alone = hierarchy_of_tiled_surfaces(in_cells(shape, 3).tiles);
+  const auto of_both = hierarchy_of_tiled_surfaces(in_cells(both, 3).tiles);
+  const double of_one = alone.noise.deviation * alone.parts.box.unit,
+               of_two = of_both.noise.deviation * of_both.parts.box.unit;
+  EXPECT_GT(of_one, 0);
+  EXPECT_NEAR(of_two, of_one, 0.1 * of_one);
+  EXPECT_NEAR(of_both.noise.in_part(of_both.parts, 1).deviation * of_both.parts.parts[1].plan.box.unit, of_two,
+              1e-12 * of_two);
+}
+
+}  // namespace test_tile_parts
