@@ -125,6 +125,69 @@ TEST_F(Tiles, HaveOneLabelWhereverASegmentGoesOn) {
   EXPECT_EQ(std::set<std::size_t>(all[2].begin(), all[2].end()), std::set<std::size_t>(all[3].begin(), all[3].end()));
 }
 
+/// Two dumbbells and a ball, which the tiles cut through, and crumbs beside them.
+class Tiles_of_parts : public Tiles {
+ protected:
+  void SetUp() override {
+    Segment_mesh_tool::SetUp();
+    shape_ = meshes::two_spheres_with_neck(2.0001, 0.1, 24);
+    const auto add = [&](const meshes::Shape& part, const Eigen::Vector3d& by) {
+      shape_ = meshes::together(shape_, meshes::moved(part, by));
+    };
+    add(meshes::scaled(shape_, 0.5), {0, 3, 0.5});
+    add(meshes::sphere(3), {0, -3, 0.5});
+    for (const double x : {2., -2., 4.}) add(meshes::scaled(meshes::cube(1), 0.05), {x, 0, 0});
+    write_tiles(shape_);
+  }
+
+  meshes::Shape shape_;
+};
+
+TEST_F(Tiles_of_parts, HaveTheSegmentsOfEachPartByItself) {
+  ASSERT_EQ(run(command({"--report", "report.json", "--tile-folder", "work"})).exit_code, 0);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["components"], 6);
+  EXPECT_EQ(report["segments"].size(), 8U);  // two of each dumbbell
+  EXPECT_EQ(report["seeds"], 123);           // one in each crumb
+  double shares = 0;
+  for (const Json& segment : report["segments"]) shares += segment["area_share"].get<double>();
+  EXPECT_NEAR(shares, 1, 1e-9);
+  const auto by_part = take_labels();
+  std::vector<std::size_t> label(shape_.faces.size());
+  for (std::size_t t = 0; t < 4; ++t)
+    for (std::size_t f = 0; f < faces_[t]; ++f) label[faces_of_tile_[t][f]] = by_part[t][f];
+  EXPECT_EQ(std::set<std::size_t>(label.begin(), label.end()).size(), 8U);
+  const std::size_t crumbs = label.size() - 36;
+  for (std::size_t f = 0; f < 36; ++f) EXPECT_EQ(label[crumbs + f], label[crumbs + f - f % 12]) << "of one crumb";
+
+  // Taken together, in the same folder or anew, and each by itself again.
+  ASSERT_EQ(run(command({"--components", "whole", "--tile-folder", "work"})).exit_code, 0);
+  const auto together = take_labels();
+  EXPECT_NE(together, by_part);
+  ASSERT_EQ(run(command({"--components", "whole"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), together);
+  expect_failure(3, "holds the work", command({"--tile-folder", "work", "--tile-step", "merge"}));
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), by_part);
+}
+
+TEST_F(Tiles_of_parts, HaveTheSurfacesOfEachPart) {
+  ASSERT_EQ(run(command({"--engineering", "--report", "report.json", "--output", "%.ply"})).exit_code, 0);
+  const Json report = Json::parse(content_of(path("report.json")));
+  EXPECT_EQ(report["components"], 6);
+  std::map<std::string, std::vector<double>> radii;
+  std::size_t planes = 0;
+  for (const Json& segment : report["segments"]) {
+    const Json& surface = segment["surface"];
+    if (surface["type"] == "sphere") radii["sphere"].push_back(surface["radius"].get<double>());
+    planes += surface["type"] == "plane";
+  }
+  EXPECT_EQ(planes, 18U);  // of three cubes
+  std::sort(radii["sphere"].begin(), radii["sphere"].end());
+  ASSERT_EQ(radii["sphere"].size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(radii["sphere"][i], i < 2 ? 0.5 : 1, 0.01);
+}
+
 TEST_F(Tiles, GetTheSameLabelsByOneWorkerManyOrStepByStep) {
   ASSERT_EQ(run(command({"--workers", "1"})).exit_code, 0);
   const auto by_one = take_labels();

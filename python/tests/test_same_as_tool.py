@@ -51,6 +51,7 @@ MODES: dict[str, tuple[list[str], Callable[[Mesh], NDArray[np.int64]]]] = {
     "coarse seeding": (["--seeding", "coarse"], lambda m: rw.segment(*m, policy=rw.Policy(seeding="coarse"))),
     "size cost": (["--merge-cost", "size"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="size"))),
     "boundary cost": (["--merge-cost", "boundary"], lambda m: rw.segment(*m, policy=rw.Policy(merge_cost="boundary"))),
+    "components": (["--components", "whole"], lambda m: rw.segment(*m, policy=rw.Policy(components="whole"))),
     "seedings": (["--seedings", "3"], lambda m: rw.segment(*m, policy=rw.Policy(seedings=3))),
     "Eigen": (["--solver", "eigen"], lambda m: rw.segment(*m, policy=rw.Policy(solver="eigen"))),
     "numbers": (

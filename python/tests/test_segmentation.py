@@ -170,6 +170,19 @@ def test_dihedral_differences_and_conductances_are_those_of_the_equations() -> N
     )
 
 
+def test_each_component_has_the_segments_that_it_has_by_itself(elephant: Mesh) -> None:
+    vertices = np.vstack([elephant.vertices, 2 * elephant.vertices + 10])
+    both = Mesh(vertices, np.vstack([elephant.faces, elephant.faces + len(elephant.vertices)]))
+    alone = rw.segment(*elephant)
+    first, second = np.split(rw.segment(*both), 2)
+    assert not set(first) & set(second)
+    for part in (first, second):
+        assert len(set(zip(part, alone))) == len(set(part)) == len(set(alone))
+    stored = rw.segment(*both, difference=rw.dihedral_difference(*both, convex_weight=0))
+    assert not set(stored[: len(alone)]) & set(stored[len(alone) :])
+    assert len(set(rw.segment(*both, policy=rw.Policy(components="whole")))) < 2 * len(set(alone))
+
+
 def test_a_stored_difference_gives_the_segments_of_the_one_that_is_computed(anchor: Mesh) -> None:
     stored = rw.curvature_difference(*anchor)
     assert np.array_equal(rw.segment(*anchor, difference=stored), rw.segment(*anchor, difference="curvature"))
