@@ -94,24 +94,23 @@ class Surface_steps {
   void merge() const {
     const auto parts = read_parts();
     const auto noise = folder_.read<RW::Surface_noise>("noise_of_all");
-    auto regions = folder_.read_parts<RW::Tile_surfaces>("regions", parts);
     Merged_parts all(parts);
     std::vector<RW::Part_surfaces> surfaces;
     std::size_t turned_sides = 0, walls = 0;
-    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-      auto& [of_pieces, merged] = surfaces.emplace_back();
-      of_pieces = std::move(regions[p]);
-      merged = RW::merge_tiles(parts.parts[p].plan, noise.in_part(parts, p), of_pieces);
+    folder_.for_each_part<RW::Tile_surfaces>("regions", parts, [&](std::size_t p, auto of_part) {
+      auto& [regions, merged] = surfaces.emplace_back();
+      regions = std::move(of_part);
+      merged = RW::merge_tiles(parts.parts[p].plan, noise.in_part(parts, p), regions);
       all.add_part(merged.tree);
       all.add_neighbours(merged.neighbours);
-      for (std::size_t i = 0; i < of_pieces.size(); ++i) {
-        for (std::size_t r = 0; r < of_pieces[i].areas.size(); ++r)
-          all.add_area(merged.fragments[i][r], of_pieces[i].areas[r]);
+      for (std::size_t i = 0; i < regions.size(); ++i) {
+        for (std::size_t r = 0; r < regions[i].areas.size(); ++r)
+          all.add_area(merged.fragments[i][r], regions[i].areas[r]);
         all.set_numbers(parts.parts[p].pieces[i], merged.fragments[i]);
       }
       turned_sides += merged.turned_sides;
       walls += merged.walls;
-    }
+    });
     const RW::Merge_tree tree = all.tree();
     const std::size_t suggested = RW::Cost_threshold_stop(RW::Surface_segmentation().stop_cost)(tree);
     Tile_segments segments = all.segments(tree, options_.segments.value_or(suggested));

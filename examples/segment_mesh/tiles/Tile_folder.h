@@ -82,17 +82,24 @@ class Tile_folder {
     write_of_tile(tile, "piece_faces", faces);
   }
 
-  /// What a step has left of each piece, one tile after the other in the order of each part.
-  /// \returns by part, and by piece in its plan
-  template <class Value>
-  std::vector<std::vector<Value>> read_parts(const char* file, const RW::Tile_parts& parts) const {
-    std::vector<std::vector<Value>> of_parts(parts.parts.size());
-    for (std::size_t t = 0; t < tiles_; ++t) {
-      auto of_tile = read<std::vector<Value>>(file, t);
-      for (std::size_t p = 0; p < of_tile.size(); ++p)
-        of_parts[parts.places[t][p].part].push_back(std::move(of_tile[p]));  // plans are in the order of the tiles
+  /// Passes what a step has left of each part, part by part, to a function of the part's number and a vector by piece in its
+  /// plan. No more tiles are in memory than have parts in common with those before.
+  template <class Value, class Use>
+  void for_each_part(const char* file, const RW::Tile_parts& parts, const Use& use) const {
+    struct Tile {
+      std::vector<Value> pieces;
+      std::size_t left;  // pieces to come
+    };
+    std::map<std::size_t, Tile> tiles;
+    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+      std::vector<Value> of_part;
+      for (const auto& [tile, place] : parts.parts[p].pieces) {
+        if (tiles.count(tile) == 0) tiles[tile] = {read<std::vector<Value>>(file, tile), parts.places[tile].size()};
+        of_part.push_back(std::move(tiles[tile].pieces[place]));
+        if (--tiles[tile].left == 0) tiles.erase(tile);
+      }
+      use(p, std::move(of_part));
     }
-    return of_parts;
   }
 
   /// What a step has left of the neighbours of each piece of a tile.

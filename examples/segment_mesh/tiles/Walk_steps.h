@@ -125,8 +125,9 @@ class Walk_steps {
 
   void noise() const {
     std::vector<RW::internal::Noise_of_mesh> noises;
-    for (const auto& of_part : folder_.read_parts<RW::Tile_noise>("noise", read_parts()))
+    folder_.for_each_part<RW::Tile_noise>("noise", read_parts(), [&](std::size_t, const auto& of_part) {
       noises.push_back(RW::noise_of_tiles(of_part));
+    });
     folder_.write("noise_of_all", noises);
   }
 
@@ -203,16 +204,16 @@ class Walk_steps {
 
   void seeds() const {
     const auto parts = read_parts();
-    const auto outlines = folder_.read_parts<RW::Tile_outline>("outline", parts);
     const double largest_area = parts.largest_area();
     std::vector<RW::Tile_seeds> seeds;
-    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    folder_.for_each_part<RW::Tile_outline>("outline", parts, [&](std::size_t p, const auto& outlines) {
       const auto& [plan, pieces, area] = parts.parts[p];
-      seeds.push_back(seeds_.empty() ? RW::seeds_of_tiles(plan, outlines[p], method_.of_part(area, largest_area))
-                                     : RW::seeds_of_tiles(
-                                           plan, outlines[p], seeds_,
-                                           folder_.read_parts<std::vector<RW::Tile_place>>("places", parts).front()));
-    }
+      if (seeds_.empty()) seeds.push_back(RW::seeds_of_tiles(plan, outlines, method_.of_part(area, largest_area)));
+      if (seeds_.empty()) return;
+      folder_.for_each_part<std::vector<RW::Tile_place>>("places", parts, [&](std::size_t, const auto& places) {
+        seeds.push_back(RW::seeds_of_tiles(parts.parts[p].plan, outlines, seeds_, places));
+      });
+    });
     folder_.write("seeds", seeds);
   }
 
@@ -233,10 +234,10 @@ class Walk_steps {
   void walk() const {
     const auto parts = read_parts();
     const auto seeds = folder_.read<std::vector<RW::Tile_seeds>>("seeds");
-    const auto networks = folder_.read_parts<RW::Tile_network>("network", parts);
     std::vector<RW::Tile_walk> walks;
-    for (std::size_t p = 0; p < parts.parts.size(); ++p)
-      walks.push_back(RW::walk_over_tiles(parts.parts[p].plan, seeds[p], networks[p], method_));
+    folder_.for_each_part<RW::Tile_network>("network", parts, [&](std::size_t p, const auto& networks) {
+      walks.push_back(RW::walk_over_tiles(parts.parts[p].plan, seeds[p], networks, method_));
+    });
     folder_.write("walk", walks);
   }
 
@@ -262,21 +263,18 @@ class Walk_steps {
 
   void merge() const {
     const auto parts = read_parts();
-    const auto regions = folder_.read_parts<RW::Tile_regions>("regions", parts);
     const auto walks = folder_.read<std::vector<RW::Tile_walk>>("walk");
     Merged_parts merged(parts);
-    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-      const RW::Tile_walk& walk = walks[p];
-      merged.add_part(seeds_.empty() ? RW::merge_tiles(walk, regions[p])
-                                     : RW::Merge_tree(walk.number_of_fragments, {}));
-      for (const RW::Tile_regions& piece : regions[p]) {
+    folder_.for_each_part<RW::Tile_regions>("regions", parts, [&](std::size_t p, const auto& regions) {
+      merged.add_part(seeds_.empty() ? RW::merge_tiles(walks[p], regions)
+                                     : RW::Merge_tree(walks[p].number_of_fragments, {}));
+      for (const RW::Tile_regions& piece : regions) {
         for (std::size_t i = 0; i < piece.fragments.size(); ++i)
           merged.add_area(piece.fragments[i], piece.regions[i].size.area);
         merged.add_neighbours(piece.walls);  // their colours must differ as well
       }
-      for (const auto& boundary : RW::internal::boundaries_of_tiles(regions[p]))
-        merged.add_neighbours({boundary.regions});
-    }
+      for (const auto& boundary : RW::internal::boundaries_of_tiles(regions)) merged.add_neighbours({boundary.regions});
+    });
     const RW::Merge_tree tree = merged.tree();
     const std::size_t suggested = seeds_.empty() ? RW::Cost_threshold_stop(1)(tree) : tree.number_of_fragments();
     Tile_segments segments = merged.segments(tree, options_.segments.value_or(suggested));

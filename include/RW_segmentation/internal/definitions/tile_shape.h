@@ -456,6 +456,14 @@ inline std::size_t steps_of_coarse_graph(std::size_t faces) {
   return static_cast<std::size_t>(std::ceil(std::sqrt(faces_of_node / faces_by_squared_step)));
 }
 
+/// That of a part of a mesh, whose other parts share the nodes: with as many as `Farthest_point_sampling` takes at least.
+inline std::size_t steps_of_coarse_graph(const Tile_plan& plan) {
+  constexpr std::size_t most_steps = 6;
+  const std::size_t alone = steps_of_coarse_graph(plan.faces);
+  if (plan.faces <= Farthest_point_sampling().largest_direct()) return alone;
+  return std::max(alone, std::min(most_steps, steps_of_coarse_graph(plan.faces_of_mesh)));
+}
+
 /// Clusters of faces as nodes, the lengths of ways between them in the feature-sensitive metric.
 inline void add_coarse_graph(const Tile_shape& shape, const Own_graph& own, std::size_t number, std::size_t steps,
                              Tile_outline& outline) {
@@ -490,7 +498,7 @@ RW_SEGMENTATION_INLINE Shaped_tile internal::shape_of_tile(const Tile& tile, con
   const internal::Own_graph own(shape);
   outline.turns = internal::turn_sums(shape, own, number);
   for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f) outline.moment += shape.mesh.area(f) * shape.mesh.centroid(f);
-  internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan.faces), outline);
+  internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan), outline);
   if (options.thickness.samples > 0)
     outline.probes = internal::thickness_probes(shape.mesh, shape.own_faces, options.thickness.samples,
                                                 plan.tiles[number].area_before);
