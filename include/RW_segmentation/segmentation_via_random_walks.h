@@ -290,7 +290,8 @@ auto hierarchy_via_random_walks(const FaceListGraph& mesh, const Policies& polic
 /// segmentation_via_random_walks(mesh, ids, CGAL::parameters::edge_is_constrained_map(walls));
 /// \endcode
 ///
-/// Connected components are never joined: each is one segment or several. The result depends on the mesh alone, not on
+/// Connected components are never joined: each is one segment or several, those that it has by itself unless the policies say
+/// otherwise (`Segmentation_policies::by_component`). The result depends on the mesh alone, not on
 /// chance or on the number of threads, and not on the mesh's position and size.
 ///
 /// Complexity: that of the walk, O(m^1.3) time and O(m log m) memory for m faces in practice; see

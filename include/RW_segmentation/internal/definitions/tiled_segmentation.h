@@ -117,12 +117,13 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::v
   const double largest_area = whole.parts.largest_area();
   Tiled_hierarchy hierarchy;
   for (const Tile& tile : tiles) hierarchy.fragment_of_face.emplace_back(tile.number_of_faces());
+  const std::vector<Progress> of_parts = internal::progress_of_parts(progress, whole.parts);
   std::vector<Merge_tree> trees;
   std::size_t fragments = 0;
   for (std::size_t p = 0; p < whole.tiles.size(); ++p) {
     const auto& [plan, pieces, area] = whole.parts.parts[p];
-    Tiled_hierarchy part = internal::hierarchy_of_part(whole.tiles[p], plan, options.of_part(area, largest_area),
-                                                       internal::progress_of_part(progress, whole.parts, p));
+    Tiled_hierarchy part =
+        internal::hierarchy_of_part(whole.tiles[p], plan, options.of_part(area, largest_area), of_parts[p]);
     whole.scatter(
         whole.parts, p, part.fragment_of_face,
         [&](std::size_t of_part) { return static_cast<Dual_mesh::Index>(fragments + of_part); },

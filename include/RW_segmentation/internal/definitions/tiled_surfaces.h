@@ -502,10 +502,11 @@ RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiled_surf
   }
   result.noise = noise_of_parts(parts, neighbourhoods, options);
   for (const Tile& tile : tiles) result.fragment_of_face.emplace_back(tile.number_of_faces());
+  const std::vector<Progress> progresses = progress_of_parts(progress.part(0.1, 1), parts);
   std::size_t fragments = 0;
   for (std::size_t p = 0; p < parts.parts.size(); ++p) {
     const Tile_plan& plan = parts.parts[p].plan;
-    const Progress of_part = progress_of_part(progress.part(0.1, 1), parts, p);
+    const Progress& of_part = progresses[p];
     const Surface_noise noise = result.noise.in_part(parts, p);
     auto& [regions, merged] = result.of_parts.emplace_back();
     regions.resize(whole.tiles[p].size());

@@ -72,17 +72,17 @@ inline Progress progress_of_tile(const Progress& progress, double begin, double 
   return progress.part(begin + static_cast<double>(tile) * share, begin + static_cast<double>(tile + 1) * share);
 }
 
-/// The progress of a part, by its faces.
-inline Progress progress_of_part(const Progress& progress, const Tile_parts& parts, std::size_t part) {
-  std::size_t before = 0, all = 0;
-  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-    all += parts.parts[p].plan.faces;
-    if (p < part) before += parts.parts[p].plan.faces;
+/// The progress of each part, by its faces.
+inline std::vector<Progress> progress_of_parts(const Progress& progress, const Tile_parts& parts) {
+  std::size_t all = 0, before = 0;
+  for (const Tile_parts::Part& part : parts.parts) all += part.plan.faces;
+  const auto share = [&](std::size_t faces) { return static_cast<double>(faces) / static_cast<double>(all); };
+  std::vector<Progress> of_parts;
+  for (const Tile_parts::Part& part : parts.parts) {
+    of_parts.push_back(progress.part(share(before), share(before + part.plan.faces)));
+    before += part.plan.faces;
   }
-  const auto share = [&](std::size_t faces) {
-    return all > 0 ? static_cast<double>(faces) / static_cast<double>(all) : 1;
-  };
-  return progress.part(share(before), share(before + parts.parts[part].plan.faces));
+  return of_parts;
 }
 
 }  // namespace RW_segmentation::internal
