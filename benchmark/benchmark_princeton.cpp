@@ -309,6 +309,28 @@ Outcome_of_method automatically(const Subject& subject, const Automatic_segmenta
   return by_walks(subject, of_fold, are_levels_offered);
 }
 
+/// The segments of a mesh beside seven copies of it in the same file, which are as large and two, four and eight times as large.
+Outcome_of_method among_copies(const Subject& subject, bool by_component, const Trees_without_category* folds) {
+  Subject row;
+  row.number = subject.number;
+  const double gap = 2 * diagonal_of(subject.mesh);
+  double x = 0;
+  for (const double size : {1., 2., 4., 8., 1., 2., 4., 8.}) {
+    Mesh copy = subject.mesh;
+    for (const auto v : copy.vertices()) {
+      const auto& p = subject.mesh.point(v);
+      copy.point(v) = {x + size * p.x(), size * p.y(), size * p.z()};
+    }
+    row.mesh += copy;
+    x += size * gap;
+  }
+  Automatic_segmentation policy;
+  policy.by_component = by_component;
+  Outcome_of_method outcome = automatically(row, policy, folds);
+  outcome.labels.resize(num_faces(subject.mesh));
+  return outcome;
+}
+
 /// \param folds null: the library's own trees
 std::vector<std::pair<std::string, Method>> methods(const Trees_without_category* folds = nullptr) {
   return {
@@ -329,6 +351,8 @@ std::vector<std::pair<std::string, Method>> methods(const Trees_without_category
        [=](const Subject& s) {
          return automatically(s, with_seedings(1, Automatic_segmentation(typical_number_of_segments(s))), folds);
        }},
+      {"among_copies", [=](const Subject& s) { return among_copies(s, true, folds); }},
+      {"among_copies_as_a_whole", [=](const Subject& s) { return among_copies(s, false, folds); }},
       {"levels", [=](const Subject& s) { return automatically(s, Automatic_segmentation(), folds, true); }},
       {"size_aware",
        [](const Subject& s) {

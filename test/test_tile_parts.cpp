@@ -127,6 +127,11 @@ TEST(ConnectedPieces, AreNotMadeOfATileThatIsWrong) {
   for (const Index v : {0U, 1U, 2U}) tile.corners.add(v);
   tile.corners.end_face();
   EXPECT_THROW(connected_pieces(tile), std::invalid_argument);
+
+  Tile two = as_tile(meshes::together(meshes::cube(1), meshes::moved(meshes::cube(1), {5, 0, 0})));
+  two.walls = {{0, 15}};  // from one to the other
+  EXPECT_THROW(connected_pieces(two), std::invalid_argument);
+  EXPECT_THROW(hierarchy_of_tiles({two}), std::invalid_argument);
 }
 
 // ---- Parts ----

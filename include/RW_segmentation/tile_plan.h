@@ -117,8 +117,8 @@ struct Tile_parts {
   internal::Unit_box box;                  ///< of the whole
   std::vector<Part> parts;                 ///< in the order of their first faces
   std::vector<std::vector<Place>> places;  ///< by tile and piece
-  std::vector<std::vector<Dual_mesh::Index>>
-      piece_of_connected;  ///< by tile and connected piece: the place of its piece
+  /// By tile and connected piece of it: the place of the piece that it belongs to.
+  std::vector<std::vector<Dual_mesh::Index>> piece_of_connected;
 
   /// That of the largest part; 0 if there is none.
   double largest_area() const;

@@ -177,7 +177,7 @@ def test_each_component_has_the_segments_that_it_has_by_itself(elephant: Mesh) -
     first, second = np.split(rw.segment(*both), 2)
     assert not set(first) & set(second)
     for part in (first, second):
-        assert len(set(zip(part, alone))) == len(set(part)) == len(set(alone))
+        assert len(set(zip(part, alone, strict=True))) == len(set(part)) == len(set(alone))
     stored = rw.segment(*both, difference=rw.dihedral_difference(*both, convex_weight=0))
     assert not set(stored[: len(alone)]) & set(stored[len(alone) :])
     assert len(set(rw.segment(*both, policy=rw.Policy(components="whole")))) < 2 * len(set(alone))

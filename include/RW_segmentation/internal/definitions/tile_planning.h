@@ -260,8 +260,10 @@ RW_SEGMENTATION_INLINE Tile_plan plan_tiles(const std::vector<Tile_survey>& surv
 namespace internal {
 
 /// The component of each face, over sides.
+/// \throws std::invalid_argument if a wall is no side
 inline Components components_over_sides(const Tile& tile) {
   Joined_faces joined(tile.corners, tile.points.size());
+  check_walls(tile, joined);
   return {Dual_graph(tile.number_of_faces(), std::move(joined.sides)), [](Dual_mesh::Index) { return true; }};
 }
 
@@ -310,7 +312,7 @@ inline void share_walls(const Tile& tile, std::vector<Tile_piece>& pieces) {
   }
 }
 
-/// By tile of a plan: the lowest of those that it is connected to.
+/// By tile of a plan: the lowest of those that it is connected to, itself included.
 inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan) {
   boost::disjoint_sets_with_storage<> sets(plan.tiles.size());
   for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece)
@@ -415,52 +417,72 @@ RW_SEGMENTATION_INLINE std::vector<Tile_parts::Piece> Tile_parts::neighbours(Pie
   return result;
 }
 
+namespace internal {
+
+/// What is known of a part before it has a plan.
+struct Surveyed_part {
+  std::vector<Tile_survey> pieces;
+  std::vector<std::size_t> faces_before;  // by piece, see `Tile_plan`
+};
+
+/// Takes the connected pieces of a part in each tile together.
+/// \param surveys of the connected pieces of all tiles
+/// \param tile_of these
+/// \param lowest of those that each is connected to
+/// \param[out] parts all but their plans
+inline std::vector<Surveyed_part> join_connected_pieces(const std::vector<Tile_survey>& surveys,
+                                                        const std::vector<Dual_mesh::Index>& tile_of,
+                                                        const std::vector<Dual_mesh::Index>& lowest,
+                                                        Tile_parts& parts) {
+  using Index = Dual_mesh::Index;
+  std::vector<Surveyed_part> surveyed;
+  std::vector<Index> part_of(surveys.size());  // of the lowest pieces
+  std::size_t faces_before = 0;
+  for (std::size_t i = 0; i < surveys.size(); ++i) {
+    if (lowest[i] == i) {
+      part_of[i] = static_cast<Index>(parts.parts.size());
+      parts.parts.emplace_back();
+      surveyed.emplace_back();
+    }
+    const Index part = part_of[lowest[i]], tile = tile_of[i];
+    auto& [plan, pieces, area] = parts.parts[part];
+    if (pieces.empty() || pieces.back().tile != tile) {
+      parts.places[tile].push_back({part, static_cast<Index>(pieces.size())});
+      pieces.push_back({tile, static_cast<Index>(parts.places[tile].size() - 1)});
+      surveyed[part].pieces.emplace_back();
+      surveyed[part].faces_before.push_back(faces_before);
+    }
+    parts.piece_of_connected[tile].push_back(pieces.back().place);
+    join_survey(surveyed[part].pieces.back(), surveys[i]);
+    area += surveys[i].area;
+    faces_before += surveys[i].faces;
+  }
+  return surveyed;
+}
+
+}  // namespace internal
+
 RW_SEGMENTATION_INLINE Tile_parts parts_of_tiles(const std::vector<std::vector<Tile_survey>>& surveys, double tolerance,
                                                  bool by_component) {
-  using Index = Dual_mesh::Index;
-  constexpr Index none = std::numeric_limits<Index>::max();
   std::vector<Tile_survey> of_all;  // connected pieces, one tile after the other
-  std::vector<Index> tile_of;
+  std::vector<Dual_mesh::Index> tile_of;
   for (std::size_t t = 0; t < surveys.size(); ++t) {
     of_all.insert(of_all.end(), surveys[t].begin(), surveys[t].end());
-    tile_of.resize(of_all.size(), static_cast<Index>(t));
+    tile_of.resize(of_all.size(), static_cast<Dual_mesh::Index>(t));
   }
   const Tile_plan all = internal::plan_tiles(of_all, tile_of, tolerance);
-  const std::vector<Index> lowest =
-      by_component ? internal::lowest_connected(all) : std::vector<Index>(of_all.size(), 0);
-
+  const auto lowest = by_component ? internal::lowest_connected(all) : std::vector<Dual_mesh::Index>(of_all.size(), 0);
   Tile_parts result;
   result.box = all.box;
   result.places.resize(surveys.size());
   result.piece_of_connected.resize(surveys.size());
-  std::vector<std::vector<Tile_survey>> of_parts;  // by part and piece
-  std::vector<Index> part_of(of_all.size(), none);
-  for (std::size_t i = 0; i < of_all.size(); ++i) {
-    if (part_of[lowest[i]] == none) {
-      part_of[lowest[i]] = static_cast<Index>(result.parts.size());
-      result.parts.emplace_back();
-      of_parts.emplace_back();
-    }
-    const Index part = part_of[lowest[i]], tile = tile_of[i];
-    Tile_parts::Part& found = result.parts[part];
-    found.area += of_all[i].area;
-    if (found.pieces.empty() || found.pieces.back().tile != tile) {
-      const auto number = static_cast<Index>(found.pieces.size());
-      found.pieces.push_back({tile, static_cast<Index>(result.places[tile].size())});
-      result.places[tile].push_back({part, number});
-      found.plan.tiles.emplace_back().faces_before = all.tiles[i].faces_before;
-      of_parts[part].emplace_back();
-    }
-    result.piece_of_connected[tile].push_back(found.pieces.back().place);
-    internal::join_survey(of_parts[part].back(), of_all[i]);
-  }
-  for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    Tile_parts::Part& part = result.parts[p];
-    Tile_plan plan = plan_tiles(of_parts[p], tolerance);
+  const auto surveyed = internal::join_connected_pieces(of_all, tile_of, lowest, result);
+  for (std::size_t p = 0; p < surveyed.size(); ++p) {
+    Tile_plan& plan = result.parts[p].plan;
+    plan = plan_tiles(surveyed[p].pieces, tolerance);
     plan.faces_of_mesh = all.faces_of_mesh;
-    for (std::size_t i = 0; i < plan.tiles.size(); ++i) plan.tiles[i].faces_before = part.plan.tiles[i].faces_before;
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) plan.tiles[i].faces_before = surveyed[p].faces_before[i];
     internal::widen_box(plan, result.box);
-    part.plan = std::move(plan);
   }
   return result;
 }
