@@ -51,8 +51,8 @@
 /// see the surface only as far as its neighbours' borders reach. From seeds of the user it is that of `Random_walk`, but for
 /// the clusters that walks run over, with normals of the smoothed shape and `seeded_concavity()`.
 ///
-/// All of this is for one connected part of a mesh, or for a mesh as a whole. Each part is segmented as it is by itself where
-/// its pieces take the place of tiles; see `tile_plan.h`. So do the functions that do all steps.
+/// All of this is for one connected part of a mesh, or for a mesh as a whole. Where pieces of tiles take the place of tiles, each
+/// part is segmented as it is by itself; see `tile_plan.h`. `hierarchy_of_tiles()` does so.
 ///
 /// Walls are those of the tiles (`Tile::walls`) and, with `Tiled_segmentation::wall_angle`, sharp edges, within tiles and
 /// between them. All steps heed them as `segmentation_via_random_walks()` does.
