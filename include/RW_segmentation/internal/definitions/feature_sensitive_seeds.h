@@ -62,16 +62,13 @@ RW_SEGMENTATION_INLINE Farthest_point_sampling::Farthest_point_sampling(double n
 RW_SEGMENTATION_INLINE std::vector<Dual_mesh::Index> Farthest_point_sampling::operator()(
     const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& given, std::size_t count,
     const Progress& progress) const {
-  // Seeds found so agree as well with people as those of the faces: benchmark_princeton --faces 4 --method clusters, where a
-  // seed has about a hundred clusters.
-  constexpr std::size_t steps = 6, least_clusters_per_seed = 50;
   std::vector<Dual_mesh::Index> seeds;
   if (given.empty()) seeds.push_back(internal::face_farthest_from_centroid(mesh));
   std::vector<double> lengths = internal::Feature_sensitive_metric(mesh, normal_weight_).edge_lengths();
   if (mesh.number_of_faces() > largest_direct_) {
-    const internal::Distance_clusters clusters(mesh.graph(), lengths,
-                                               internal::cluster_steps(mesh.number_of_faces(), steps));
-    if (clusters.root.size() / least_clusters_per_seed >= given.size() + count)
+    const internal::Distance_clusters clusters(
+        mesh.graph(), lengths, internal::cluster_steps(mesh.number_of_faces(), internal::steps_of_seed_clusters));
+    if (clusters.root.size() / internal::least_clusters_per_seed >= given.size() + count)
       return internal::farthest_roots(clusters, given, std::move(seeds), count, progress);
   }
   internal::Distances_to_sources distance(mesh.graph(), std::move(lengths));

@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/check_number.h>
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/mesh/Components.h>
+#include <RW_segmentation/internal/mesh/Face_choice.h>
 #include <RW_segmentation/internal/tiles/Edge_set.h>
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/tile_plan.h>
@@ -268,27 +269,13 @@ inline Components components_over_sides(const Tile& tile) {
 }
 
 /// Some faces of a tile as a tile of their own, without walls.
-/// \param number by vertex, `none`; it is left as it was
-inline Tile tile_of_faces(const Tile& tile, const std::vector<Dual_mesh::Index>& faces,
-                          std::vector<Dual_mesh::Index>& number) {
-  using Index = Dual_mesh::Index;
-  constexpr Index none = std::numeric_limits<Index>::max();
+inline Tile tile_of_faces(const Tile& tile, const std::vector<Dual_mesh::Index>& faces, Face_choice& choice) {
+  auto [corners, vertices] = choice([&](Dual_mesh::Index f) { return tile.corners[f]; }, faces);
   Tile piece;
-  std::vector<Index> vertices;
-  for (const Index f : faces) {
-    for (const Index v : tile.corners[f]) {
-      if (number[v] == none) {
-        number[v] = static_cast<Index>(vertices.size());
-        vertices.push_back(v);
-      }
-      piece.corners.add(number[v]);
-    }
-    piece.corners.end_face();
-  }
-  for (const Index v : vertices) {
+  piece.corners = std::move(corners);
+  for (const auto v : vertices) {
     piece.points.push_back(tile.points[v]);
     if (!tile.vertex_ids.empty()) piece.vertex_ids.push_back(tile.vertex_ids[v]);
-    number[v] = none;
   }
   return piece;
 }
@@ -397,8 +384,8 @@ RW_SEGMENTATION_INLINE std::vector<Tile_piece> connected_pieces(Tile tile) {
   }
   pieces.resize(components.count);
   for (Index f = 0; f < tile.number_of_faces(); ++f) pieces[components.of[f]].faces.push_back(f);
-  std::vector<Index> number(tile.points.size(), std::numeric_limits<Index>::max());
-  for (Tile_piece& piece : pieces) piece.tile = internal::tile_of_faces(tile, piece.faces, number);
+  internal::Face_choice choice(tile.points.size());
+  for (Tile_piece& piece : pieces) piece.tile = internal::tile_of_faces(tile, piece.faces, choice);
   internal::share_walls(tile, pieces);
   return pieces;
 }
@@ -409,11 +396,12 @@ RW_SEGMENTATION_INLINE double Tile_parts::largest_area() const {
   return largest;
 }
 
-RW_SEGMENTATION_INLINE std::vector<Tile_parts::Piece> Tile_parts::neighbours(Piece piece) const {
-  const auto& [number, plan] = place_of(piece);
+RW_SEGMENTATION_INLINE std::vector<Tile_parts::Piece> Tile_parts::neighbours(std::size_t tile,
+                                                                             std::size_t place) const {
+  const auto& [part, number] = places[tile][place];
+  const auto& [plan, pieces, area] = parts[part];
   std::vector<Piece> result;
-  for (const auto n : plan.tiles[number].neighbours)
-    result.push_back(parts[places[piece.tile][piece.place].part].pieces[n]);
+  for (const auto n : plan.tiles[number].neighbours) result.push_back(pieces[n]);
   return result;
 }
 

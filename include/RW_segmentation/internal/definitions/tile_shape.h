@@ -7,6 +7,7 @@
 #include <RW_segmentation/feature_sensitive_seeds.h>
 #include <RW_segmentation/internal/Argument_error.h>
 #include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/mesh/Face_choice.h>
 #include <RW_segmentation/internal/seeds/Distance_clusters.h>
 #include <RW_segmentation/internal/seeds/Feature_sensitive_metric.h>
 #include <RW_segmentation/internal/tiles/Edge_set.h>
@@ -61,21 +62,10 @@ RW_SEGMENTATION_INLINE Dual_mesh part_of(const Tile_plan& plan, Face_corners cor
 /// \param faces different ones
 inline Dual_mesh part_of_faces(const Tile_plan& plan, const Dual_mesh& mesh,
                                const std::vector<Dual_mesh::Index>& faces) {
-  using Index = Dual_mesh::Index;
-  constexpr Index none = std::numeric_limits<Index>::max();
-  std::vector<Index> number(mesh.number_of_vertices(), none);
+  auto [corners, vertices] =
+      Face_choice(mesh.number_of_vertices())([&](Dual_mesh::Index f) { return mesh.corners(f); }, faces);
   std::vector<Eigen::Vector3d> points;
-  Face_corners corners;
-  for (const Index f : faces) {
-    for (const Index v : mesh.corners(f)) {
-      if (number[v] == none) {
-        number[v] = static_cast<Index>(points.size());
-        points.push_back(mesh.point(v));
-      }
-      corners.add(number[v]);
-    }
-    corners.end_face();
-  }
+  for (const auto v : vertices) points.push_back(mesh.point(v));
   return part_of(plan, std::move(corners), std::move(points), {});
 }
 
@@ -456,12 +446,13 @@ inline std::size_t steps_of_coarse_graph(std::size_t faces) {
   return static_cast<std::size_t>(std::ceil(std::sqrt(faces_of_node / faces_by_squared_step)));
 }
 
-/// That of a part of a mesh, whose other parts share the nodes: with as many as `Farthest_point_sampling` takes at least.
-inline std::size_t steps_of_coarse_graph(const Tile_plan& plan) {
-  constexpr std::size_t most_steps = 6;
+/// That of a part of a mesh, whose other parts share the nodes: as on a large mesh as a whole at the most.
+inline std::size_t steps_of_coarse_graph(const Tile_plan& plan, std::size_t seeds) {
+  constexpr std::size_t faces_of_cluster = 20;  // 5/9 of the square of the steps
   const std::size_t alone = steps_of_coarse_graph(plan.faces);
-  if (plan.faces <= Farthest_point_sampling().largest_direct()) return alone;
-  return std::max(alone, std::min(most_steps, steps_of_coarse_graph(plan.faces_of_mesh)));
+  const bool are_clusters_enough = plan.faces / faces_of_cluster >= seeds * least_clusters_per_seed;
+  if (plan.faces <= Farthest_point_sampling().largest_direct() || !are_clusters_enough) return alone;
+  return std::max(alone, std::min(steps_of_seed_clusters, steps_of_coarse_graph(plan.faces_of_mesh)));
 }
 
 /// Clusters of faces as nodes, the lengths of ways between them in the feature-sensitive metric.
@@ -498,7 +489,7 @@ RW_SEGMENTATION_INLINE Shaped_tile internal::shape_of_tile(const Tile& tile, con
   const internal::Own_graph own(shape);
   outline.turns = internal::turn_sums(shape, own, number);
   for (Dual_mesh::Index f = 0; f < shape.own_faces; ++f) outline.moment += shape.mesh.area(f) * shape.mesh.centroid(f);
-  internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan), outline);
+  internal::add_coarse_graph(shape, own, number, internal::steps_of_coarse_graph(plan, options.seeds), outline);
   if (options.thickness.samples > 0)
     outline.probes = internal::thickness_probes(shape.mesh, shape.own_faces, options.thickness.samples,
                                                 plan.tiles[number].area_before);
