@@ -65,35 +65,40 @@ struct Segmentation_policies {
   /// These policies with another difference.
   template <class Other>
   auto with_difference(Other other) const {
-    return with(std::move(other), seeding, solver, merge_cost, stop, seedings, by_component);
+    return with(std::move(other), seeding, solver, merge_cost, stop);
   }
   /// These policies with another seeding, which is the only one, since further ones would not be placed by it, and that of
   /// the whole mesh.
   template <class Other>
   auto with_seeding(Other other) const {
-    return with(difference, std::move(other), solver, merge_cost, stop, 1, false);
+    auto policies = with(difference, std::move(other), solver, merge_cost, stop);
+    policies.seedings = 1;
+    policies.by_component = false;
+    return policies;
   }
   /// These policies with another solver.
   template <class Other>
   auto with_solver(Other other) const {
-    return with(difference, seeding, std::move(other), merge_cost, stop, seedings, by_component);
+    return with(difference, seeding, std::move(other), merge_cost, stop);
   }
   /// These policies with another merge cost, and one seeding: a cost may mean anything where several agree.
   template <class Other>
   auto with_merge_cost(Other other) const {
-    return with(difference, seeding, solver, std::move(other), stop, 1, by_component);
+    auto policies = with(difference, seeding, solver, std::move(other), stop);
+    policies.seedings = 1;
+    return policies;
   }
   /// These policies with another stop.
   template <class Other>
   auto with_stop(Other other) const {
-    return with(difference, seeding, solver, merge_cost, std::move(other), seedings, by_component);
+    return with(difference, seeding, solver, merge_cost, std::move(other));
   }
 
  private:
   template <class D, class S, class W, class M, class P>
-  Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p, std::size_t times, bool each) const {
-    return {smoothing, std::move(d), sigma,        cap,   std::move(s), std::move(w),
-            reduction, std::move(m), std::move(p), times, each,         least_component};
+  Segmentation_policies<D, S, W, M, P> with(D d, S s, W w, M m, P p) const {
+    return {smoothing, std::move(d), sigma,        cap,      std::move(s), std::move(w),
+            reduction, std::move(m), std::move(p), seedings, by_component, least_component};
   }
 };
 
