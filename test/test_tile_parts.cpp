@@ -154,7 +154,7 @@ TEST(PartsOfTiles, AreThePiecesThatMeetEachWithThePlanThatItHasAlone) {
       const auto& [part, number] = parts.places[of_part[i].tile][of_part[i].place];
       EXPECT_EQ(part, p);
       EXPECT_EQ(number, i);
-      for (const auto& neighbour : parts.neighbours(of_part[i])) {
+      for (const auto& neighbour : parts.neighbours(of_part[i].tile, of_part[i].place)) {
         EXPECT_EQ(parts.places[neighbour.tile][neighbour.place].part, p);
         EXPECT_NE(neighbour.tile, of_part[i].tile);
       }

@@ -123,14 +123,14 @@ struct Tile_parts {
   /// That of the largest part; 0 if there is none.
   double largest_area() const;
 
-  /// Where a piece is in the plan of its part.
-  Tile_in_plan place_of(Piece piece) const {
-    const auto& [part, number] = places[piece.tile][piece.place];
+  /// Where a piece of a tile is in the plan of its part.
+  Tile_in_plan in_plan(std::size_t tile, std::size_t place) const {
+    const auto& [part, number] = places[tile][place];
     return {number, parts[part].plan};
   }
 
-  /// The pieces of other tiles that share a vertex with one, in the order of the plan of its part.
-  std::vector<Piece> neighbours(Piece piece) const;
+  /// The pieces of other tiles that share a vertex with a piece, in the order of the plan of its part.
+  std::vector<Piece> neighbours(std::size_t tile, std::size_t place) const;
 };
 
 /// Finds out which connected pieces belong together: those of different tiles that meet. Each part has a unit box of its own,

@@ -60,8 +60,8 @@ class Surface_steps {
     std::vector<RW::Tile_border> borders;
     std::vector<RW::Tile_neighbourhoods> neighbourhoods(pieces.size());
     for (std::size_t p = 0; p < pieces.size(); ++p)
-      borders.push_back(RW::border_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), neighbourhoods[p],
-                                           RW::Tiled_surfaces()));
+      borders.push_back(
+          RW::border_of_tile(pieces[p].tile, parts.in_plan(tile, p), neighbourhoods[p], RW::Tiled_surfaces()));
     folder_.write_faces_of_pieces(tile, pieces);
     folder_.write_of_tile(tile, "border", borders);
     folder_.write_of_tile(tile, "noise", neighbourhoods);
@@ -85,7 +85,7 @@ class Surface_steps {
     std::vector<RW::Tile_surfaces> regions(pieces.size());
     std::vector<std::vector<Index>> fragments;  // by piece and face
     for (std::size_t p = 0; p < pieces.size(); ++p)
-      fragments.push_back(RW::surfaces_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), borders[p],
+      fragments.push_back(RW::surfaces_of_tile(pieces[p].tile, parts.in_plan(tile, p), borders[p],
                                                noise.in_part(parts, parts.places[tile][p].part), regions[p], method));
     folder_.write_of_tile(tile, "fragments", fragments);
     folder_.write_of_tile(tile, "regions", regions);

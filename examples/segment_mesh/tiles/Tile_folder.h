@@ -111,16 +111,12 @@ class Tile_folder {
     std::vector<std::vector<Value>> of_pieces;
     for (std::size_t p = 0; p < parts.places[tile].size(); ++p) {
       of_pieces.emplace_back();
-      for (const auto& [other, place] : parts.neighbours(piece(tile, p))) {
+      for (const auto& [other, place] : parts.neighbours(tile, p)) {
         if (of_tiles.count(other) == 0) of_tiles[other] = read<std::vector<Value>>(file, other);
         of_pieces.back().push_back(of_tiles[other][place]);
       }
     }
     return of_pieces;
-  }
-
-  static RW::Tile_parts::Piece piece(std::size_t tile, std::size_t place) {
-    return {static_cast<RW::Dual_mesh::Index>(tile), static_cast<RW::Dual_mesh::Index>(place)};
   }
 
  private:

@@ -200,7 +200,8 @@ class Tile_steps {
     else
       pieces.push_back(RW::whole_tile(std::move(arrays)));
     std::vector<RW::Tile_survey> of_pieces;
-    for (const RW::Tile_piece& piece : pieces) of_pieces.push_back(RW::survey_tile(piece.tile));
+    for (const RW::Tile_piece& piece : pieces)
+      of_pieces.push_back(pieces.size() == 1 ? survey : RW::survey_tile(piece.tile));
     folder_.write_of_tile(tile, "connected", pieces);
     folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
     folder_.write_of_tile(tile, "survey", survey, failure, of_pieces);

@@ -9,6 +9,7 @@
 #include "../seeds.h"
 #include "../surfaces.h"
 #include "../walls.h"
+#include "Stored_shape.h"
 #include "Tile_folder.h"
 #include "Tile_segments.h"
 #include "Tile_step.h"
@@ -117,7 +118,7 @@ class Walk_steps {
     std::vector<RW::Tile_border> borders;
     std::vector<RW::Tile_noise> noises(pieces.size());
     for (std::size_t p = 0; p < pieces.size(); ++p)
-      borders.push_back(RW::border_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), noises[p], method_));
+      borders.push_back(RW::border_of_tile(pieces[p].tile, parts.in_plan(tile, p), noises[p], method_));
     folder_.write_faces_of_pieces(tile, pieces);
     folder_.write_of_tile(tile, "border", borders);
     folder_.write_of_tile(tile, "noise", noises);
@@ -131,42 +132,6 @@ class Walk_steps {
     folder_.write("noise_of_all", noises);
   }
 
-  /// A `Tile_shape` in a file.
-  struct Stored_shape {
-    RW::internal::Face_corners corners;
-    std::vector<Eigen::Vector3d> points, normals;
-    std::vector<char> is_wall;
-    RW::Tile_shape of_tile;  // but for the mesh
-
-    explicit Stored_shape(RW::Tile_shape shape = {}) : of_tile(std::move(shape)) {
-      const RW::Dual_mesh mesh = std::exchange(of_tile.mesh, {});
-      for (Index e = 0; mesh.has_walls() && e < mesh.number_of_edges(); ++e) is_wall.push_back(mesh.is_wall(e));
-      for (Index f = 0; f < mesh.number_of_faces(); ++f) {
-        for (const auto v : mesh.corners(f)) corners.add(v);
-        corners.end_face();
-        normals.push_back(mesh.shape_normal(f));
-      }
-      points = mesh.points();
-    }
-
-    RW::Tile_shape restored(const RW::Tile_plan& plan) && {
-      of_tile.mesh = RW::internal::part_of(plan, std::move(corners), std::move(points), std::move(is_wall))
-                         .with_shape_normals(std::move(normals));
-      return std::move(of_tile);
-    }
-
-    template <class Archive>
-    friend void transfer(Archive& a, Stored_shape& x) {
-      a(x.corners);
-      a(x.points);
-      a(x.normals);
-      a(x.is_wall);
-      a(x.of_tile.own_faces);
-      a(x.of_tile.halo);
-      a(x.of_tile.shared_edges);
-    }
-  };
-
   void shape(std::size_t tile) const {
     const auto parts = read_parts();
     const auto noises = folder_.read<std::vector<RW::internal::Noise_of_mesh>>("noise_of_all");
@@ -175,7 +140,7 @@ class Walk_steps {
     std::vector<Stored_shape> shapes;
     std::vector<RW::Tile_outline> outlines;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-      RW::Shaped_tile shaped = RW::shape_of_tile(pieces[p].tile, parts.place_of(folder_.piece(tile, p)), borders[p],
+      RW::Shaped_tile shaped = RW::shape_of_tile(pieces[p].tile, parts.in_plan(tile, p), borders[p],
                                                  noises[parts.places[tile][p].part], method_);
       shapes.emplace_back(std::move(shaped.shape));
       outlines.push_back(std::move(shaped.outline));
@@ -188,16 +153,16 @@ class Walk_steps {
   std::vector<RW::Tile_shape> read_shapes(const RW::Tile_parts& parts, std::size_t tile) const {
     std::vector<RW::Tile_shape> shapes;
     for (Stored_shape& stored : folder_.read<std::vector<Stored_shape>>("shape", tile))
-      shapes.push_back(std::move(stored).restored(parts.place_of(folder_.piece(tile, shapes.size())).plan));
+      shapes.push_back(std::move(stored).restored(parts.in_plan(tile, shapes.size()).plan));
     return shapes;
   }
 
+  /// Tiles are one piece each where there are seeds of the user.
   void places(std::size_t tile) const {
-    std::vector<std::vector<RW::Tile_place>> places;  // by piece, of which there is one
+    std::vector<RW::Tile_place> places;
     if (!seeds_.empty()) {
       const auto parts = read_parts();
-      for (const RW::Tile_shape& shape : read_shapes(parts, tile))
-        places.push_back(RW::places_in_tile(shape, parts.parts.front().plan, seeds_));
+      places = RW::places_in_tile(read_shapes(parts, tile).front(), parts.parts.front().plan, seeds_);
     }
     folder_.write_of_tile(tile, "places", places);
   }
@@ -208,11 +173,9 @@ class Walk_steps {
     std::vector<RW::Tile_seeds> seeds;
     folder_.for_each_part<RW::Tile_outline>("outline", parts, [&](std::size_t p, const auto& outlines) {
       const auto& [plan, pieces, area] = parts.parts[p];
-      if (seeds_.empty()) seeds.push_back(RW::seeds_of_tiles(plan, outlines, method_.of_part(area, largest_area)));
-      if (seeds_.empty()) return;
-      folder_.for_each_part<std::vector<RW::Tile_place>>("places", parts, [&](std::size_t, const auto& places) {
-        seeds.push_back(RW::seeds_of_tiles(parts.parts[p].plan, outlines, seeds_, places));
-      });
+      seeds.push_back(seeds_.empty() ? RW::seeds_of_tiles(plan, outlines, method_.of_part(area, largest_area))
+                                     : RW::seeds_of_tiles(plan, outlines, seeds_,
+                                                          folder_.read_all<std::vector<RW::Tile_place>>("places")));
     });
     folder_.write("seeds", seeds);
   }
@@ -225,7 +188,7 @@ class Walk_steps {
     std::vector<RW::Tile_clusters> clusters;
     std::vector<RW::Tile_network> networks(shapes.size());
     for (std::size_t p = 0; p < shapes.size(); ++p)
-      clusters.push_back(RW::clusters_of_tile(shapes[p], parts.place_of(folder_.piece(tile, p)), borders[p],
+      clusters.push_back(RW::clusters_of_tile(shapes[p], parts.in_plan(tile, p), borders[p],
                                               seeds[parts.places[tile][p].part], networks[p], method_));
     folder_.write_of_tile(tile, "clusters", clusters);
     folder_.write_of_tile(tile, "network", networks);
@@ -253,9 +216,9 @@ class Walk_steps {
     std::vector<std::vector<Index>> fragments;  // by piece and face
     for (std::size_t p = 0; p < shapes.size(); ++p) {
       const std::size_t part = parts.places[tile][p].part;
-      fragments.push_back(RW::fragments_of_tile({parts.place_of(folder_.piece(tile, p)), shapes[p], clusters[p],
-                                                 borders[p], networks[p], seeds[part], walks[part]},
-                                                regions[p]));
+      fragments.push_back(RW::fragments_of_tile(
+          {parts.in_plan(tile, p), shapes[p], clusters[p], borders[p], networks[p], seeds[part], walks[part]},
+          regions[p]));
     }
     folder_.write_of_tile(tile, "fragments", fragments);
     folder_.write_of_tile(tile, "regions", regions);

@@ -125,7 +125,7 @@ RW_SEGMENTATION_INLINE Tiled_hierarchy internal::hierarchy_of_tiles(const std::v
     Tiled_hierarchy part =
         internal::hierarchy_of_part(whole.tiles[p], plan, options.of_part(area, largest_area), of_parts[p]);
     whole.scatter(
-        whole.parts, p, part.fragment_of_face,
+        p, part.fragment_of_face,
         [&](std::size_t of_part) { return static_cast<Dual_mesh::Index>(fragments + of_part); },
         hierarchy.fragment_of_face);
     hierarchy.components += part.components;

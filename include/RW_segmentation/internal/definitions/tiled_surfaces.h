@@ -145,7 +145,7 @@ RW_SEGMENTATION_INLINE Surface_noise noise_of_parts(const Tile_parts& parts,
     plan.box.rounding = std::max(plan.box.rounding, part.plan.box.rounding);
   if (!(options.noise >= 0)) {
     const Surface_noise by_part = noise_of_tiles(plan, all, options);
-    if (by_part.deviation == 0) return by_part;
+    if (by_part.deviation == 0 || parts.parts.size() == 1) return by_part;
   }
   plan.box = parts.box;
   auto neighbourhoods = all.begin();
@@ -485,9 +485,8 @@ RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiled_surf
                                                                                      const Tiled_surfaces& options,
                                                                                      const Progress& progress) {
   Tiles_of_parts whole(tiles, options.tolerance, true);
+  const Tile_parts& parts = whole.parts;
   Tiled_surface_hierarchy result;
-  result.parts = std::move(whole.parts);
-  const Tile_parts& parts = result.parts;
   std::vector<std::vector<Tile_border>> borders;                 // by part and piece
   std::vector<std::vector<Tile_neighbourhoods>> neighbourhoods;  // by tile and piece
   for (const auto& of_tile : parts.places) neighbourhoods.emplace_back(of_tile.size());
@@ -519,12 +518,13 @@ RW_SEGMENTATION_INLINE Tiled_surface_hierarchy internal::hierarchy_of_tiled_surf
     for (std::size_t i = 0; i < region_of_face.size(); ++i)
       for (Dual_mesh::Index& region : region_of_face[i]) region = merged.fragments[i][region];
     whole.scatter(
-        parts, p, region_of_face, [&](std::size_t f) { return static_cast<Dual_mesh::Index>(fragments + f); },
+        p, region_of_face, [&](std::size_t f) { return static_cast<Dual_mesh::Index>(fragments + f); },
         result.fragment_of_face);
     fragments += merged.tree.number_of_fragments();
     result.turned_sides += merged.turned_sides;
     result.walls += merged.walls;
   }
+  result.parts = std::move(whole.parts);
   result.tree = tree_of_parts(result.of_parts);
   result.components = result.tree.number_of_components();
   progress(1);

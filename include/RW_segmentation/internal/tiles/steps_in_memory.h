@@ -45,14 +45,13 @@ struct Tiles_of_parts {
   }
 
   /// Writes what is known by face of the tiles of a part into what is by face of the whole tiles.
-  /// \param of_mesh the parts, wherever they are by now
   /// \param whole by tile and face, large enough
   template <class Value, class Convert>
-  void scatter(const Tile_parts& of_mesh, std::size_t part, const std::vector<std::vector<Value>>& of_part,
-               const Convert& convert, std::vector<std::vector<Value>>& whole) const {
+  void scatter(std::size_t part, const std::vector<std::vector<Value>>& of_part, const Convert& convert,
+               std::vector<std::vector<Value>>& whole) const {
     for (std::size_t i = 0; i < of_part.size(); ++i)
       for (std::size_t f = 0; f < of_part[i].size(); ++f)
-        whole[of_mesh.parts[part].pieces[i].tile][faces[part][i][f]] = convert(of_part[i][f]);
+        whole[parts.parts[part].pieces[i].tile][faces[part][i][f]] = convert(of_part[i][f]);
   }
 };
 
