@@ -173,6 +173,12 @@ TEST(PartsOfTiles, AreThePiecesThatMeetEachWithThePlanThatItHasAlone) {
   EXPECT_EQ(together.parts.front().plan.faces, mesh.place.size());
 }
 
+TEST(PartsOfTiles, MeetBetweenTilesButNotOverCracksWithinOne) {
+  const Shape left = meshes::plane(2), right = meshes::moved(meshes::plane(2), {1, 0, 0});  // with vertices of its own
+  EXPECT_EQ(parts_of({as_tile(meshes::together(left, right))}).parts.size(), 2U);
+  EXPECT_EQ(parts_of({as_tile(left), as_tile(right)}).parts.size(), 1U);
+}
+
 TEST(PartsOfTiles, FarSmallerThanTheWholeHaveABoxOfAHundredth) {
   const Cut_mesh mesh =
       in_cells(meshes::together(meshes::scaled(meshes::cube(2), 1000), meshes::moved(meshes::cube(2), {-5, 0, 0})), 3);

@@ -151,7 +151,7 @@ std::vector<Tile_piece> pieces_of_parts(std::vector<Tile_piece> connected, const
 }  // namespace RW_segmentation
 
 #ifndef RW_SEGMENTATION_COMPILED
-#include <RW_segmentation/internal/definitions/tile_planning.h>
+#include <RW_segmentation/internal/definitions/tile_parts.h>
 #endif
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <RW_segmentation/internal/compiled.h>
 #include <RW_segmentation/internal/definitions/tile_merging.h>
-#include <RW_segmentation/internal/definitions/tile_planning.h>
+#include <RW_segmentation/internal/definitions/tile_parts.h>
 #include <RW_segmentation/internal/definitions/tile_shape.h>
 #include <RW_segmentation/internal/definitions/tile_walk.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
