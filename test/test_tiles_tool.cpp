@@ -3,6 +3,13 @@
 // The tool on tiles of one mesh: steps in files, workers that are killed, work that goes on where it stopped.
 
 #include <gtest/gtest.h>
+
+#ifndef SEGMENT_MESH
+
+TEST(Tiles_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
+
+#else
+
 #include "meshes.h"
 #include "segment_mesh_tool.h"
 
@@ -873,3 +880,5 @@ TEST_F(Tiles_of_shaft, RefuseWhatSurfacesOfTilesLack) {
 }  // namespace
 
 }  // namespace test_tiles_tool
+
+#endif
