@@ -6,7 +6,7 @@
 
 #ifndef SEGMENT_MESH
 
-TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
+TEST(Segment_mesh_input, IsRead) { GTEST_SKIP() << "the tool is not built"; }
 
 #else
 
