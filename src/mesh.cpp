@@ -12,6 +12,7 @@
 #include <RW_segmentation/internal/definitions/check_number.h>
 #include <RW_segmentation/internal/definitions/integral_invariant_curvatures.h>
 #include <RW_segmentation/internal/definitions/local_thickness.h>
+#include <RW_segmentation/internal/definitions/long_tasks.h>
 #include <RW_segmentation/internal/definitions/smoothed_face_normals.h>
 #include <RW_segmentation/internal/definitions/threads.h>
 

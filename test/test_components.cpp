@@ -3,7 +3,9 @@
 #include <RW_segmentation/Dihedral_difference.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Paper_segmentation.h>
+#include <RW_segmentation/Progress.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
+#include <RW_segmentation/smoothed_face_normals.h>
 
 #include <gtest/gtest.h>
 #include <boost/property_map/function_property_map.hpp>
@@ -13,10 +15,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -161,6 +166,29 @@ TEST(ComponentOfADualMesh, SharesVerticesWithAnother) {
   for (Dual_mesh::Index e = 0; e < 6; ++e) EXPECT_EQ(second.is_wall(e), e == 2);
 }
 
+TEST(ComponentsOfADualMesh, StayWhereTheyAre) {
+  const Mesh mesh = meshes::surface_mesh(side_by_side({dumbbell(12), cross(2), meshes::plane(3), meshes::cube(1)}));
+  const Dual_mesh_of measured(mesh);
+  const Dual_mesh whole = measured.with_shape_normals_of(smoothed_shape(measured));
+  const auto stretches = internal::connected_stretches(whole.graph());
+  ASSERT_EQ(stretches.size(), 4u);
+  internal::Mesh_stretch middle = stretches[1];
+  middle.faces += stretches[2].faces;
+  middle.edges += stretches[2].edges;
+  const Dual_mesh part = whole.components_in_place(middle);
+  ASSERT_EQ(part.number_of_faces(), middle.faces);
+  ASSERT_EQ(part.number_of_edges(), middle.edges);
+  EXPECT_EQ(part.unit(), whole.unit());
+  EXPECT_EQ(part.origin(), whole.origin());
+  for (Dual_mesh::Index f = 0; f < part.number_of_faces(); ++f) {
+    EXPECT_EQ(part.centroid(f), whole.centroid(middle.first_face + f));
+    EXPECT_EQ(part.area(f), whole.area(middle.first_face + f));
+    EXPECT_EQ(part.shape_normal(f), whole.shape_normal(middle.first_face + f));
+  }
+  for (Dual_mesh::Index e = 0; e < part.number_of_edges(); ++e)
+    EXPECT_EQ(part.edge_length(e), whole.edge_length(middle.first_edge + e));
+}
+
 // ---- Segments ----
 
 TYPED_TEST(Component, HasTheSegmentsThatItHasByItself) {
@@ -284,6 +312,69 @@ TEST(Components, ReportProgressThatRisesAndCanBeCancelled) {
   end = 0.9;  // in the second component
   EXPECT_THROW(segmentation_via_random_walks(mesh, untouched.map(), CGAL::parameters::callback(callback)), Cancelled);
   EXPECT_EQ(untouched.values().front(), untouched.untouched);
+}
+
+TEST(Components, TellProgressAndCallPoliciesOfTheUserFromTheCallingThread) {
+  const Mesh mesh = meshes::surface_mesh(side_by_side({cross(4), dumbbell(24), cross(3), dumbbell(16)}));
+  const auto caller = std::this_thread::get_id();
+  const std::function<bool(double)> callback = [&](double) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    return true;
+  };
+  Face_labels<Mesh> ids(mesh), by_own(mesh);
+  segmentation_via_random_walks(mesh, ids.map(), CGAL::parameters::callback(callback));
+  bool is_busy = false;  // a policy of the user's need not allow for several threads
+  const auto difference = [&](const Dual_mesh_of<Mesh>& part) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_FALSE(std::exchange(is_busy, true));
+    auto differences = smoothed_concavity()(part);
+    is_busy = false;
+    return differences;
+  };
+  segmentation_via_random_walks(mesh, by_own.map(), Automatic_segmentation().with_difference(difference));
+  EXPECT_EQ(by_own.values(), ids.values());
+}
+
+TEST(Components, AreSegmentedAtTheSameTimeWhereThePoliciesAllowIt) {
+  auto policies = Automatic_segmentation().with_difference(smoothed_concavity());
+  EXPECT_FALSE(policies.concurrent_components);
+  policies.concurrent_components = true;
+  EXPECT_TRUE(policies.with_stop(Segment_count_stop(9)).concurrent_components);
+  EXPECT_FALSE(policies.with_seeding(policies.seeding).concurrent_components);
+  EXPECT_FALSE(policies.with_solver(policies.solver).concurrent_components);
+  EXPECT_FALSE(policies.with_merge_cost(policies.merge_cost).concurrent_components);
+  const meshes::Shape row = side_by_side({cross(4), dumbbell(24), cross(3)});
+  EXPECT_EQ(segments_of(row, policies), segments_of(row));
+}
+
+TEST(Components, HaveStagesThatTakeNoLongerThanAllOfThem) {
+  const Mesh mesh = meshes::surface_mesh(side_by_side({cross(6), dumbbell(48), cross(5), dumbbell(40)}));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto hierarchy = hierarchy_via_random_walks(mesh);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  double sum = 0;
+  std::set<std::string> names;
+  for (const auto& stage : hierarchy.report().stages) {
+    EXPECT_TRUE(names.insert(stage.name).second) << stage.name;
+    EXPECT_GE(stage.seconds, 0);
+    sum += stage.seconds;
+  }
+  EXPECT_GT(sum, 0);
+  EXPECT_LE(sum, seconds);
+}
+
+TEST(Components, PassOnWhatACallbackThrows) {
+  struct Enough : std::runtime_error {
+    using std::runtime_error::runtime_error;
+  };
+  const Mesh mesh = meshes::surface_mesh(side_by_side({cross(4), dumbbell(24), cross(3)}));
+  const std::function<bool(double)> callback = [](double fraction) -> bool {
+    if (fraction > 0.3) throw Enough("enough");
+    return true;
+  };
+  Face_labels<Mesh> ids(mesh);
+  EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), CGAL::parameters::callback(callback)), Enough);
+  EXPECT_EQ(ids.values().front(), ids.untouched);
 }
 
 TEST(Components, OfThePaperAreThoseOfTheWhole) {

@@ -140,6 +140,30 @@ TEST(Threads, OfTbbDoNotChangeAReducedSegmentation) {
   expect_the_same_with_threads_of_tbb<Labels>([&] { return segments(mesh, reduced); });
 }
 
+/// Shapes beside each other, of several sizes.
+meshes::Shape row_of(const std::vector<meshes::Shape>& shapes) {
+  meshes::Shape row;
+  double x = 0;
+  for (const meshes::Shape& shape : shapes) row = meshes::together(row, meshes::moved(shape, {x += 20, 0, 0}));
+  return row;
+}
+
+TEST(Threads, OfTbbDoNotChangeComponentsThatAreSegmentedAtTheSameTime) {
+  const Surface_mesh mesh = meshes::surface_mesh(row_of(
+      {two_spheres(12), two_spheres(40), meshes::l_shape(4), two_spheres(8), meshes::sphere(3), two_spheres(24)}));
+  expect_the_same_with_threads_of_tbb<Labels>([&] { return segments(mesh, Automatic_segmentation()); });
+}
+
+TEST(Threads, OfTbbDoNotChangeTheSurfacesOfAnAssembly) {
+  const Surface_mesh mesh = meshes::surface_mesh(
+      row_of({meshes::l_shape(3), meshes::l_shape(8), meshes::cube(1), meshes::sphere(3), meshes::l_shape(6)}));
+  expect_the_same_with_threads_of_tbb<Labels>([&] {
+    Face_labels<Surface_mesh> labels(mesh);
+    segmentation_into_surfaces(mesh, labels.map());
+    return labels.values();
+  });
+}
+
 TEST(Threads, OfTbbDoNotChangeTheSurfacesOfAMachinePart) {
   const Surface_mesh mesh = meshes::surface_mesh(meshes::l_shape(12));
   expect_the_same_with_threads_of_tbb<Labels>([&] {

@@ -339,6 +339,7 @@ inline Policies policies_of(const Method& method) {
   policies.merge_cost = merge_cost_function(method);
   policies.seedings = method.seedings;
   policies.by_component = method.components == Components::each;
+  policies.concurrent_components = true;
   policies.stop =
       method.segments ? RW_segmentation::Segment_count_stop(*method.segments) : stop_by_shape(method.merge_cost);
   return policies;

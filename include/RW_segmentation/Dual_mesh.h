@@ -149,7 +149,15 @@ class Dual_mesh {
   /// Complexity: linear in its size.
   Dual_mesh component(const internal::Mesh_stretch& component) const;
 
+  /// Connected components that follow each other as a mesh of their own, in the unit box of this one.
+  /// \param components a stretch of whole ones
+  /// Complexity: linear in their size.
+  Dual_mesh components_in_place(const internal::Mesh_stretch& components) const;
+
  private:
+  Arrays arrays_of(const internal::Mesh_stretch& components) const;
+  Dual_mesh with_shape_normals_of(const internal::Mesh_stretch& components, const Dual_mesh& whole) const;
+
   internal::Unit_box box_;
   bool is_part_ = false;
   double area_of_whole_ = 0;

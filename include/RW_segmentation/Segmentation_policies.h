@@ -61,6 +61,10 @@ struct Segmentation_policies {
   /// The area below which a component is one segment by that, as a share of that of the largest one; unless it holds walls
   /// or given seeds. 0: none is. The debris of a scan, of less than a hundredth, would be cut into pieces of a few faces.
   double least_component = 0.01;
+  /// Whether several components may be segmented at the same time by that, where TBB is linked: policies are called from
+  /// several threads then. The result is the same. Policies with a difference, seeding, solver or merge cost of one's own may
+  /// not be, unless it is said again.
+  bool concurrent_components = false;
 
   /// These policies with another difference.
   template <class Other>
@@ -91,7 +95,9 @@ struct Segmentation_policies {
   /// These policies with another stop.
   template <class Other>
   auto with_stop(Other other) const {
-    return with(difference, seeding, solver, merge_cost, std::move(other));
+    auto policies = with(difference, seeding, solver, merge_cost, std::move(other));
+    policies.concurrent_components = concurrent_components;
+    return policies;
   }
 
  private:

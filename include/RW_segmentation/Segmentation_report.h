@@ -27,7 +27,9 @@ struct Segmentation_report {
   /// A stage of the computation.
   struct Stage {
     std::string name;  ///< what is done
-    double seconds;    ///< how long it took, or was waited for where others were done at the same time
+    /// How long it took, or was waited for where others were done at the same time; its share of the time of all where
+    /// components were segmented at the same time.
+    double seconds;
   };
   std::vector<Stage> stages;  ///< in the order in which they happen
 };
@@ -58,6 +60,7 @@ class Stage_clock {
   using Time = std::chrono::steady_clock::time_point;
 
   static Time now() { return std::chrono::steady_clock::now(); }
+  static double seconds(Time begin, Time end) { return std::chrono::duration<double>(end - begin).count(); }
 
   /// \param begin of the first stage
   explicit Stage_clock(std::vector<Segmentation_report::Stage>& stages, Time begin = now())

@@ -9,6 +9,7 @@
 #include <RW_segmentation/Segmentation_policies.h>
 #include <RW_segmentation/Segmentation_report.h>
 #include <RW_segmentation/internal/apply_policies.h>
+#include <RW_segmentation/internal/long_tasks.h>
 #include <RW_segmentation/internal/merging/Consensus_cost.h>
 #include <RW_segmentation/internal/mesh/Components.h>
 #include <RW_segmentation/internal/named_parameters.h>
@@ -134,25 +135,10 @@ Merged_fragments segment_by_policies(const Mesh& mesh, const Policies& policies,
   return merged;
 }
 
-/// Puts segmentations of connected components together.
-class Segmented_components {
- public:
-  /// \param number_of_faces of the whole mesh
-  explicit Segmented_components(std::size_t number_of_faces);
-
-  /// Adds that of the next component, in the order of the faces.
-  void add(Merged_fragments component);
-
-  /// That of the whole mesh.
-  Merged_fragments whole() &&;
-
- private:
-  void add_report(const Segmentation_report& component);
-
-  std::vector<Merge_tree> trees_;
-  Merged_fragments whole_;
-  std::size_t fragments_ = 0;
-};
+/// The segmentation of a mesh from those of its connected components, in the order of the faces.
+/// \param reading_seconds that the stage before took
+/// \param seconds that all took, several at the same time perhaps: each of their stages has its share of it
+Merged_fragments whole_of(std::vector<Merged_fragments> components, double reading_seconds, double seconds);
 
 /// The seeds in each component, as numbers of its faces.
 std::vector<std::vector<Dual_mesh::Index>> seeds_of_components(const std::vector<Mesh_stretch>& components,
@@ -176,27 +162,21 @@ Merged_fragments segment_components_by_policies(const Mesh& mesh, const Policies
   if (policies.by_component) components = connected_stretches(mesh.graph());
   if (components.size() <= 1) return segment_by_policies<ConcurrencyTag>(mesh, policies, given, progress, begin);
 
+  const Stage_clock::Time begin_of_components = Stage_clock::now();
   const std::vector<double> area = areas_of(components, mesh);
   const double least_area = policies.least_component * *std::max_element(area.begin(), area.end());
   const auto seeds = seeds_of_components(components, given);
-  const auto share = [&](std::size_t faces) {
-    return static_cast<double>(faces) / static_cast<double>(mesh.number_of_faces());
+  std::vector<Merged_fragments> segmented(components.size());
+  const auto segment = [&](std::size_t i, const Progress& part) {
+    const bool is_large = area[i] >= least_area || !seeds[i].empty() || has_walls(components[i], mesh);
+    segmented[i] = is_large ? segment_by_policies<ConcurrencyTag>(mesh.component(components[i]), policies, seeds[i],
+                                                                  part, Stage_clock::now())
+                            : one_segment(components[i], mesh);
+    part(1);
   };
-  Segmented_components segmented(mesh.number_of_faces());
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    const std::size_t first = components[i].first_face;
-    const Progress part = progress.part(share(first), share(first + components[i].faces));
-    if (area[i] >= least_area || !seeds[i].empty() || has_walls(components[i], mesh)) {
-      segmented.add(
-          segment_by_policies<ConcurrencyTag>(mesh.component(components[i]), policies, seeds[i], part, begin));
-      begin = Stage_clock::now();
-    } else {
-      part(0);
-      segmented.add(one_segment(components[i], mesh));
-    }
-  }
-  progress(1);
-  return std::move(segmented).whole();
+  long_tasks(sizes_of(components), progress, segment, policies.concurrent_components);
+  return whole_of(std::move(segmented), Stage_clock::seconds(begin, begin_of_components),
+                  Stage_clock::seconds(begin_of_components, Stage_clock::now()));
 }
 
 /// By the library's own policies, which ask for no descriptors.

@@ -203,10 +203,10 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::as_part_of(double area_of_whole) con
   return result;
 }
 
-RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::component(const internal::Mesh_stretch& component) const {
-  const auto& [first_face, faces, first_edge, edges] = component;
+RW_SEGMENTATION_INLINE Dual_mesh::Arrays Dual_mesh::arrays_of(const internal::Mesh_stretch& components) const {
+  const auto& [first_face, faces, first_edge, edges] = components;
   Arrays arrays;
-  internal::Vertex_numbers numbers(*this, component);
+  internal::Vertex_numbers numbers(*this, components);
   arrays.corners.reserve(faces, std::size_t(3) * faces);
   for (Index f = first_face; f < first_face + faces; ++f) {
     for (const Index vertex : corners(f)) arrays.corners.add(numbers[vertex]);
@@ -223,18 +223,28 @@ RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::component(const internal::Mesh_stret
   for (const Index vertex : numbers.vertices()) arrays.points.push_back(point(vertex));
   arrays.graph = Dual_graph(faces, std::move(sides));
   if (has_walls()) arrays.is_wall.assign(is_wall_->begin() + first_edge, is_wall_->begin() + first_edge + edges);
+  return arrays;
+}
 
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::with_shape_normals_of(const internal::Mesh_stretch& components,
+                                                                  const Dual_mesh& whole) const {
+  if (!whole.has_shape_normals()) return *this;
+  const auto begin = whole.shape_normals_->begin() + components.first_face;
+  return with_shape_normals({begin, begin + components.faces});
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::component(const internal::Mesh_stretch& component) const {
+  Arrays arrays = arrays_of(component);
   internal::Unit_box box(arrays.points);
   for (Eigen::Vector3d& p : arrays.points) p = box.scaled(p);
   box.rounding = std::max(box.rounding, box_.rounding / box.unit);
   box.origin = box_.origin + box_.unit * box.origin;
   box.unit *= box_.unit;
-  Dual_mesh result(std::move(arrays), &box);
-  if (has_shape_normals()) {
-    const auto begin = shape_normals_->begin() + first_face;
-    result = result.with_shape_normals({begin, begin + faces});
-  }
-  return result;
+  return Dual_mesh(std::move(arrays), &box).with_shape_normals_of(component, *this);
+}
+
+RW_SEGMENTATION_INLINE Dual_mesh Dual_mesh::components_in_place(const internal::Mesh_stretch& components) const {
+  return Dual_mesh(arrays_of(components), &box_).with_shape_normals_of(components, *this);
 }
 
 }  // namespace RW_segmentation

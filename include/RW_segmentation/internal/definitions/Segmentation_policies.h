@@ -24,7 +24,9 @@ RW_SEGMENTATION_INLINE Learned_cost Learned_cost_policy::operator()(const Dual_m
 
 RW_SEGMENTATION_INLINE Automatic_segmentation::Automatic_segmentation()
     : internal::Automatic_policies{{}, smoothed_concavity(),   1, 20,  {40, {}}, {}, {},
-                                   {}, Cost_threshold_stop(1), 2, true} {}
+                                   {}, Cost_threshold_stop(1), 2, true} {
+  concurrent_components = true;
+}
 
 RW_SEGMENTATION_INLINE Automatic_segmentation::Automatic_segmentation(std::size_t segments) : Automatic_segmentation() {
   seeding.count = internal::seeds_for(segments, seeding.count);

@@ -12,7 +12,7 @@ namespace RW_segmentation::internal {
 
 RW_SEGMENTATION_INLINE void Stage_clock::note(const char* stage) {
   const Time time = now();
-  stages_.push_back({stage, std::chrono::duration<double>(time - last_).count()});
+  stages_.push_back({stage, seconds(last_, time)});
   last_ = time;
 }
 

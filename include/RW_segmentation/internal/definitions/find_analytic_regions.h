@@ -4,6 +4,8 @@
 #define RW_SEGMENTATION_INTERNAL_DEFINITIONS_FIND_ANALYTIC_REGIONS_H
 
 #include <RW_segmentation/internal/compiled.h>
+#include <RW_segmentation/internal/long_tasks.h>
+#include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
 #include <RW_segmentation/internal/surfaces/Region_borders.h>
 #include <RW_segmentation/internal/surfaces/Surface_growing.h>
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -30,6 +33,44 @@ inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_to
     settle();
   if (Surface_proposals(mesh, tolerance, regions).try_for_regions(progress)) settle();
   return regions;
+}
+
+/// Stretches of whole components, each long enough to be worth a thread.
+inline std::vector<Mesh_stretch> long_stretches(const std::vector<Mesh_stretch>& components) {
+  constexpr Dual_mesh::Index least_faces = 1000;  // about 20 ms
+  std::vector<Mesh_stretch> stretches;
+  for (const Mesh_stretch& component : components) {
+    if (stretches.empty() || stretches.back().faces >= least_faces) {
+      stretches.push_back(component);
+    } else {
+      stretches.back().faces += component.faces;
+      stretches.back().edges += component.edges;
+    }
+  }
+  return stretches;
+}
+
+/// As above, of several components at the same time, which know nothing of each other.
+inline Analytic_regions regions_of_components(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                              const Progress& progress) {
+  const std::vector<Mesh_stretch> stretches = long_stretches(connected_stretches(mesh.graph()));
+  if (stretches.size() <= 1) return regions_of_faces(mesh, tolerance, progress);
+  std::vector<Analytic_regions> found(stretches.size());
+  const auto find = [&](std::size_t i, const Progress& part) {
+    std::vector<Dual_mesh::Index> faces(stretches[i].faces);
+    std::iota(faces.begin(), faces.end(), stretches[i].first_face);
+    found[i] = regions_of_faces(mesh.components_in_place(stretches[i]), tolerance.of_parts(faces), part);
+  };
+  constexpr bool concurrent = true;
+  long_tasks(sizes_of(stretches), progress, find, concurrent);
+
+  Analytic_regions all;
+  for (const Analytic_regions& regions : found) {
+    for (const std::size_t region : regions.region_of_face)
+      all.region_of_face.push_back(region == Analytic_regions::none ? region : all.surfaces.size() + region);
+    all.surfaces.insert(all.surfaces.end(), regions.surfaces.begin(), regions.surfaces.end());
+  }
+  return all;
 }
 
 /// The regions of the faces that triangles are part of: each takes the region that most of its area has.
@@ -51,8 +92,8 @@ inline Analytic_regions carried_back(const Analytic_regions& triangles, const Fa
 inline Analytic_regions regions_of_triangles(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                              double longest_side, const Progress& progress) {
   const Face_refinement refinement(mesh, longest_side);
-  return carried_back(regions_of_faces(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress), refinement,
-                      mesh.number_of_faces());
+  return carried_back(regions_of_components(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress),
+                      refinement, mesh.number_of_faces());
 }
 
 /// The length that triangles may have so that about `most` of them make up the faces, and at least `least`. Halved again
@@ -68,7 +109,7 @@ RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& m
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
-  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_faces(mesh, tolerance, progress);
+  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_components(mesh, tolerance, progress);
   Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;

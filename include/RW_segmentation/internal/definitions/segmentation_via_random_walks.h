@@ -35,20 +35,7 @@ RW_SEGMENTATION_INLINE void require_seedings(std::size_t seedings) {
 
 // ---- Components ----
 
-RW_SEGMENTATION_INLINE Segmented_components::Segmented_components(std::size_t number_of_faces) {
-  whole_.fragment_of_face.reserve(number_of_faces);
-}
-
-RW_SEGMENTATION_INLINE void Segmented_components::add(Merged_fragments component) {
-  for (const std::size_t fragment : component.fragment_of_face)
-    whole_.fragment_of_face.push_back(fragments_ + fragment);
-  fragments_ += component.tree.number_of_fragments();
-  trees_.push_back(std::move(component.tree));
-  add_report(component.report);
-}
-
-RW_SEGMENTATION_INLINE void Segmented_components::add_report(const Segmentation_report& component) {
-  Segmentation_report& report = whole_.report;
+inline void add_report(const Segmentation_report& component, Segmentation_report& report) {
   report.components += component.components;
   report.seeds += component.seeds;
   report.clusters += component.clusters;
@@ -66,9 +53,30 @@ RW_SEGMENTATION_INLINE void Segmented_components::add_report(const Segmentation_
   }
 }
 
-RW_SEGMENTATION_INLINE Merged_fragments Segmented_components::whole() && {
-  whole_.tree = side_by_side(trees_);
-  return std::move(whole_);
+/// Makes stages take as long as they did together.
+inline void share_out(double seconds, std::vector<Segmentation_report::Stage>& stages) {
+  double sum = 0;
+  for (const Segmentation_report::Stage& stage : stages) sum += stage.seconds;
+  for (Segmentation_report::Stage& stage : stages) stage.seconds *= sum > seconds ? seconds / sum : 1;
+}
+
+RW_SEGMENTATION_INLINE Merged_fragments whole_of(std::vector<Merged_fragments> components, double reading_seconds,
+                                                 double seconds) {
+  Merged_fragments whole;
+  std::vector<Merge_tree> trees;
+  std::size_t fragments = 0;
+  for (Merged_fragments& component : components) {
+    for (const std::size_t fragment : component.fragment_of_face)
+      whole.fragment_of_face.push_back(fragments + fragment);
+    fragments += component.tree.number_of_fragments();
+    trees.push_back(std::move(component.tree));
+    add_report(component.report, whole.report);
+    component = {};
+  }
+  share_out(seconds, whole.report.stages);
+  whole.report.stages.front().seconds += reading_seconds;  // the largest component has stages
+  whole.tree = side_by_side(trees);
+  return whole;
 }
 
 RW_SEGMENTATION_INLINE std::vector<std::vector<Dual_mesh::Index>> seeds_of_components(

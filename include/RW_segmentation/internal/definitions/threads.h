@@ -35,16 +35,18 @@ RW_SEGMENTATION_INLINE void run_stretches(std::size_t number, std::size_t length
 
 RW_SEGMENTATION_INLINE void run_at_the_same_time(Task_reference<> in_background, Task_reference<> here) {
 #ifdef CGAL_LINKED_WITH_TBB
-  tbb::task_group group;
-  group.run(in_background);
-  try {
-    here();
-  } catch (...) {
-    group.cancel();
+  tbb::this_task_arena::isolate([&] {  // as above
+    tbb::task_group group;
+    group.run(in_background);
+    try {
+      here();
+    } catch (...) {
+      group.cancel();
+      group.wait();
+      throw;
+    }
     group.wait();
-    throw;
-  }
-  group.wait();
+  });
 #else
   here();
   in_background();

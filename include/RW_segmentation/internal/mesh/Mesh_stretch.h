@@ -37,6 +37,14 @@ inline std::vector<Mesh_stretch> connected_stretches(const Dual_graph& graph) {
   return stretches;
 }
 
+/// The number of faces of each.
+inline std::vector<std::size_t> sizes_of(const std::vector<Mesh_stretch>& stretches) {
+  std::vector<std::size_t> sizes;
+  sizes.reserve(stretches.size());
+  for (const Mesh_stretch& stretch : stretches) sizes.push_back(stretch.faces);
+  return sizes;
+}
+
 }  // namespace RW_segmentation::internal
 
 #endif
