@@ -160,6 +160,13 @@ TEST_F(Faults, ReducedSegmentationThatRunsOutOfMemoryWritesNothing) {
                        [&] { expect_untouched(); });
 }
 
+TEST_F(Faults, LabelsThatRunOutOfMemoryAreNotWritten) {
+  const Conductance conductance(mesh, Dihedral_difference(mesh));
+  Random_walk walk(mesh, conductance);
+  for (std::size_t s = 0; s < 2; ++s) walk.add_seed(seeds[s], s);
+  for_every_allocation([&] { walk.segment(labels.map()); }, [&] { expect_untouched(); });
+}
+
 TEST_F(Faults, TransferThatRunsOutOfMemoryWritesNothing) {
   const Surface_mesh half = meshes::surface_mesh(meshes::cube(2));
   Face_labels<Surface_mesh> sides(half);

@@ -274,6 +274,26 @@ TEST(ThicknessOfAllFaces, FillsGapsFromNeighbours) {
   EXPECT_TRUE(std::abs(thickness.back() - 0.5) < 1e-12 || std::abs(thickness.back() - 1) < 1e-12);
 }
 
+TEST(ThicknessOfAllFaces, FillsALongStripInTimeThatIsLinear) {
+  // A flat strip, with a triangle that looks at it below one end.
+  constexpr std::size_t squares = 100000;
+  meshes::Shape strip;
+  for (std::size_t i = 0; i <= squares; ++i)
+    for (const double y : {0., 1.}) strip.points.emplace_back(static_cast<double>(i), y, 0.);
+  for (std::size_t i = 0; i < squares; ++i) {
+    const std::size_t v = 2 * i;
+    strip.faces.push_back({v, v + 2, v + 3});
+    strip.faces.push_back({v, v + 3, v + 1});
+  }
+  const std::size_t first = strip.points.size();
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, -1, -1), {1, 3, -1}, {2, -1, -1}}) strip.points.push_back(p);
+  strip.faces.push_back({first, first + 1, first + 2});
+  Thickness_report report;
+  const std::vector<double> thickness = of_all_faces(meshes::surface_mesh(strip), straight_rays(), &report);
+  EXPECT_GT(report.gaps, strip.faces.size() - 10);
+  for (const double t : thickness) ASSERT_NEAR(t, 1, 1e-6);
+}
+
 TEST(ThicknessOfAllFaces, FillsNoGapAcrossWalls) {
   const Open_box box;
   const auto mesh = meshes::surface_mesh(box.shape);

@@ -518,6 +518,10 @@ TEST(Pathologies, ComponentsWithoutASeedNeverTakeALabelInUse) {
   EXPECT_EQ(walk.segment(labels.map()), 5u);
   EXPECT_EQ(labels[face[0]], std::numeric_limits<std::size_t>::max() - 1);
   EXPECT_EQ(labels[face[1]], 0u);
+  walk.add_seed(face[2], std::numeric_limits<std::size_t>::max());
+  EXPECT_EQ(walk.segment(labels.map()), 5u);
+  EXPECT_EQ(labels[face[2]], std::numeric_limits<std::size_t>::max());
+  EXPECT_EQ(std::set<std::size_t>({labels[face[3]], labels[face[4]]}), std::set<std::size_t>({1, 2}));
 }
 
 TEST(Pathologies, SelfIntersectionJoinsNothing) {
@@ -641,7 +645,7 @@ TEST(Pathologies, HugeAndTinyCoordinatesGiveTheSameSegments) {
     return labels.in_order_of(mesh);
   };
   const auto expected = segment(shape);
-  for (const double scale : {1e150, 1e300, 1e-160, 1e-290})
+  for (const double scale : {1e150, 1e300, 8e307, 1e-160, 1e-290})
     EXPECT_EQ(segment(meshes::scaled(shape, scale)), expected) << "scaled by " << scale;
 }
 
@@ -1037,6 +1041,9 @@ TEST(Pathologies, LabelsMayBeNegativeFarApartOrBool) {
   for (const auto& [f, label] : seeds) walk.add_seed(f, static_cast<std::size_t>(label));
   EXPECT_EQ(walk.segment(labels.map()), 2u);
   for (const auto& [f, label] : seeds) EXPECT_EQ(labels[f], label);
+  walk.add_seed(face[20], static_cast<std::size_t>(-1));
+  EXPECT_EQ(walk.segment(labels.map()), 3u);
+  EXPECT_EQ(labels[face[20]], -1);
 }
 
 }  // namespace test_pathologies

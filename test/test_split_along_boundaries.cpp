@@ -146,6 +146,22 @@ TYPED_TEST(SplitAlongBoundaries, LabelsWithoutAnyOrderSurvive) {
   }
 }
 
+TEST(SplitAlongBoundariesOf, AnyNumberMayBeTheIdOfASegment) {
+  const Shape shape = meshes::plane(30);
+  const auto disc = [&](std::size_t id) {
+    Surface_mesh mesh = meshes::surface_mesh(shape);
+    Growing_face_labels<Surface_mesh> labels(mesh, labels_by_place(shape, [&](const Eigen::Vector3d& p) {
+                                               const bool is_inside = std::hypot(p.x() - 0.5, p.y() - 0.5) < 0.28;
+                                               return is_inside ? id : std::size_t(p.x() > 0.5);
+                                             }));
+    EXPECT_GT(refine(mesh, labels).faces_relabelled, 0u);
+    std::vector<bool> is_inside;
+    for (const auto f : mesh.faces()) is_inside.push_back(labels[f] == id);
+    return is_inside;
+  };
+  EXPECT_EQ(disc(std::numeric_limits<std::size_t>::max()), disc(2));
+}
+
 TEST(SplitAlongBoundariesOf, TatteredMeshesKeepSurfaceAndSegments) {
   for (unsigned seed = 0; seed < 60; ++seed)
     for (const Shape& shape : {meshes::plane(5), meshes::sphere(1)}) {

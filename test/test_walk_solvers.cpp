@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <type_traits>
@@ -221,6 +222,19 @@ TEST(StarMeshElimination, FindsTheLargestPotentialsInEachPartThatASeedReaches) {
   EXPECT_EQ(found, std::vector<Index>({2, 2, 1, 1, 1, 1}));
   EXPECT_THROW(solver.largest_potentials({2, 1}, 3), std::invalid_argument);
   EXPECT_THROW(Star_mesh_elimination().largest_potentials({}, 1), std::invalid_argument);
+}
+
+TYPED_TEST(Walk_solver, MayBeMovedAfterItHasFactorised) {
+  std::mt19937 random(8);
+  const Network network{triangulated_torus(6), std::vector<double>(108, 1.)};
+  const std::vector<Index> seeds = random_faces(network.graph, 3, random);
+  auto solver = std::make_unique<TypeParam>();
+  const Potentials expected = potentials(*solver, network, seeds);
+  TypeParam moved = std::move(*solver);
+  solver = nullptr;
+  Potentials again;
+  moved.potentials(Potentials::Identity(3, 3), again);
+  EXPECT_TRUE((again.array() == expected.array()).all());
 }
 
 TEST(StarMeshElimination, IsTheSameToTheLastBitWithAnyNumberOfThreads) {

@@ -120,7 +120,7 @@ class Eigen_walk_solver {
   std::vector<double> conductances_;
   std::vector<Index> absorbing_faces_;
   std::vector<Index> row_;  // by face: its unknown, `none` for absorbing and for unreached faces
-  Matrix matrix_;           // iterative solvers of Eigen keep a reference to it
+  std::unique_ptr<Matrix> matrix_ = std::make_unique<Matrix>();  // stays where iterative solvers of Eigen refer to it
   std::unique_ptr<EigenSolver> solver_ = std::make_unique<EigenSolver>();
 };
 
@@ -151,11 +151,11 @@ void Eigen_walk_solver<EigenSolver>::factorize(const std::vector<double>& conduc
     entries.emplace_back(static_cast<int>(row_[f]), static_cast<int>(row_[f]), diagonal[f]);
     ++unknowns;
   }
-  matrix_.resize(static_cast<int>(unknowns), static_cast<int>(unknowns));
-  matrix_.setFromTriplets(entries.begin(), entries.end());
+  matrix_->resize(static_cast<int>(unknowns), static_cast<int>(unknowns));
+  matrix_->setFromTriplets(entries.begin(), entries.end());
   progress(0.3);
   if (unknowns > 0) {
-    solver_->compute(matrix_);
+    solver_->compute(*matrix_);
     if (solver_->info() != Eigen::Success)
       throw std::runtime_error(
           "Eigen_walk_solver: the factorisation failed (conductances differ too much; a smaller cap "
@@ -182,7 +182,7 @@ void Eigen_walk_solver<EigenSolver>::number_unknowns() {
 template <class EigenSolver>
 Eigen::MatrixXd Eigen_walk_solver<EigenSolver>::currents(const Potentials& boundary_values) const {
   // One more column: all boundary values 1, of which the solution is known.
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix_.rows(), boundary_values.cols() + 1);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix_->rows(), boundary_values.cols() + 1);
   for (std::size_t r = 0; r < absorbing_faces_.size(); ++r)
     for (const auto& [next, edge] : graph_->neighbours(absorbing_faces_[r])) {
       if (row_[next] == none) continue;
@@ -195,7 +195,7 @@ Eigen::MatrixXd Eigen_walk_solver<EigenSolver>::currents(const Potentials& bound
 
 template <class EigenSolver>
 Eigen::MatrixXd Eigen_walk_solver<EigenSolver>::solve(const Eigen::MatrixXd& right) const {
-  if (matrix_.rows() == 0) return right;
+  if (matrix_->rows() == 0) return right;
   Eigen::MatrixXd solution = solver_->solve(right);
   if (solver_->info() != Eigen::Success)
     throw std::runtime_error("Eigen_walk_solver: the solver did not converge to its tolerance");

@@ -25,6 +25,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -245,11 +246,11 @@ class Random_walk {
     static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                   "segment_ids must be a writable property map from the mesh's face_descriptor to an integer.");
     using Id = typename boost::property_traits<SegmentIdMap>::value_type;
-    std::map<Label, std::size_t> distinct;
-    for (std::size_t f = 0; f < labels.size(); ++f) {
-      if (f == 0 || labels[f] != labels[f - 1]) distinct[labels[f]] = f;
+    std::set<Label> distinct;  // counted first: what may run out of memory comes before the first label is written
+    for (std::size_t f = 0; f < labels.size(); ++f)
+      if (f == 0 || labels[f] != labels[f - 1]) distinct.insert(labels[f]);
+    for (std::size_t f = 0; f < labels.size(); ++f)
       put(segment_ids, mesh_.face(static_cast<Dual_mesh::Index>(f)), static_cast<Id>(labels[f]));
-    }
     return distinct.size();
   }
 

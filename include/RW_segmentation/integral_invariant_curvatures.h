@@ -26,7 +26,8 @@
 
 namespace RW_segmentation {
 
-/// The radius of the balls in which curvature is measured, 1e-12 of the diagonal of the mesh if it is less.
+/// The radius of the balls in which curvature is measured, from 1e-12 to 1e12 times the diagonal of the
+/// mesh: less or more counts as these.
 class Ball_radius {
  public:
   /// A multiple of the mean length of the interior edges. On clean, even meshes 2 to 3 serve; noise asks for more.

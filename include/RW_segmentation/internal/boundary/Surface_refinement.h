@@ -314,10 +314,10 @@ class Surface_refinement {
   /// Fills each piece with the segment that the curves around it say, and compares with the segments before.
   void find_segments(const std::vector<std::size_t>& segment_of_face) {
     Sets after = connected_pieces();
-    std::vector<std::size_t> segment(number_of_pieces_, no_curve), witness(number_of_pieces_, no_curve);
+    std::vector<std::size_t> segment(number_of_pieces_), witness(number_of_pieces_, no_curve);
     for_each_side([&](std::size_t piece, std::size_t label, std::size_t curve) {
       const std::size_t set = after.find_set(piece);
-      if (segment[set] == no_curve) {
+      if (witness[set] == no_curve) {
         segment[set] = label;
         witness[set] = curve;
       } else if (segment[set] != label) {
@@ -331,14 +331,15 @@ class Surface_refinement {
     const std::size_t faces = surface_.number_of_faces();
     std::size_t sets_before = 0, sets_after = 0;
     for (std::size_t f = 0; f < faces; ++f) sets_before += before.find_set(f) == f;
-    segment_of_piece_.assign(number_of_pieces_, no_curve);
+    segment_of_piece_.assign(number_of_pieces_, 0);
+    std::vector<char> is_met(number_of_pieces_, false);  // by set: any number may be the id of a segment
     bool is_whole = true;
     for (std::size_t piece = 0; piece < number_of_pieces_; ++piece) {
       if (piece < faces && is_cut(static_cast<Index>(piece))) continue;
       const std::size_t set = after.find_set(piece);
       sets_after += set == piece;
       // A part of the surface without a curve keeps its segment, which must be one. Whole faces come first.
-      if (segment[set] == no_curve) segment[set] = segment_of_face[piece];
+      if (witness[set] == no_curve && !std::exchange(is_met[set], true)) segment[set] = segment_of_face[piece];
       if (witness[set] == no_curve && piece < faces) is_whole = is_whole && segment[set] == segment_of_face[piece];
       segment_of_piece_[piece] = segment[set];
     }

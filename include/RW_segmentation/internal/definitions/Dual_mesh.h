@@ -36,7 +36,7 @@ RW_SEGMENTATION_INLINE Unit_box::Unit_box(const std::vector<Eigen::Vector3d>& po
   origin = box.min() / 2 + box.max() / 2;
   const Eigen::Vector3d half = box.max() / 2 - box.min() / 2;
   const double diagonal = 2 * std::hypot(half.x(), half.y(), half.z());
-  if (diagonal >= std::numeric_limits<double>::min()) unit = diagonal;
+  if (diagonal >= std::numeric_limits<double>::min()) unit = std::min(diagonal, std::numeric_limits<double>::max());
   const double largest_coordinate = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   rounding = std::numeric_limits<double>::epsilon() * (1 + largest_coordinate * (1 / unit));
 }

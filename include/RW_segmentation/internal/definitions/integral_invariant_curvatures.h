@@ -50,9 +50,10 @@ RW_SEGMENTATION_INLINE double length_of(const Ball_radius& radius, const Dual_me
   if (!(radius.value() > 0) || !std::isfinite(radius.value()))
     throw argument_error("radius", radius.value(), "positive and finite");
   constexpr double smallest = 1e-12;  // so that rounding errors of points are smaller still
-  if (!radius.is_in_edge_lengths()) return std::max(radius.value() / mesh.unit(), smallest);
+  constexpr double largest = 1e12;    // so that what is measured in it remains a number
+  if (!radius.is_in_edge_lengths()) return std::clamp(radius.value() / mesh.unit(), smallest, largest);
   // A mesh without interior edges is a few planes.
-  return std::max(radius.value() * (mesh.number_of_edges() == 0 ? 1 : mesh.mean_edge_length()), smallest);
+  return std::clamp(radius.value() * (mesh.number_of_edges() == 0 ? 1 : mesh.mean_edge_length()), smallest, largest);
 }
 
 /// Gives each face without area the values of a face that is as few steps away as any.

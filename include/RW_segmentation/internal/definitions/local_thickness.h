@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace RW_segmentation::internal {
 
@@ -192,31 +193,40 @@ std::vector<double> shape_diameters(const Dual_mesh& mesh, const Ray_cone& cone,
 /// \returns how many such faces there were
 inline std::size_t fill_gaps(const Dual_mesh& mesh, std::vector<double>& thickness) {
   double least = std::numeric_limits<double>::infinity();
-  std::vector<Dual_mesh::Index> gaps;
+  std::vector<Dual_mesh::Index> last;  // the faces that got a thickness last: first those where it was measured
   for (Dual_mesh::Index f = 0; f < thickness.size(); ++f)
-    if (thickness[f] > 0)
+    if (thickness[f] > 0) {
       least = std::min(least, thickness[f]);
-    else
-      gaps.push_back(f);
-  const std::size_t number_of_gaps = gaps.size();
-  if (number_of_gaps == thickness.size()) return number_of_gaps;
-
-  std::vector<std::pair<Dual_mesh::Index, double>> ring;
-  do {
-    ring.clear();
-    for (const Dual_mesh::Index f : gaps) {
-      double sum = 0, known = 0;
-      for (const auto& [next, edge] : mesh.graph().neighbours(f)) {
-        if (!(thickness[next] > 0) || mesh.is_wall(edge)) continue;
-        sum += thickness[next];
-        ++known;
-      }
-      if (known > 0) ring.emplace_back(f, sum / known);
+      last.push_back(f);
     }
-    for (const auto& [face, value] : ring) thickness[face] = value;
-    gaps.erase(std::remove_if(gaps.begin(), gaps.end(), [&](auto f) { return thickness[f] > 0; }), gaps.end());
-  } while (!ring.empty());
-  for (const Dual_mesh::Index f : gaps) thickness[f] = least;
+  const std::size_t number_of_gaps = thickness.size() - last.size();
+  if (last.empty()) return number_of_gaps;
+
+  const auto mean_of_neighbours = [&](Dual_mesh::Index f) {
+    double sum = 0, known = 0;
+    for (const auto& [next, edge] : mesh.graph().neighbours(f)) {
+      if (!(thickness[next] > 0) || mesh.is_wall(edge)) continue;
+      sum += thickness[next];
+      ++known;
+    }
+    return sum / known;
+  };
+  std::vector<char> is_reached(thickness.size(), false);
+  std::vector<std::pair<Dual_mesh::Index, double>> ring;
+  while (!last.empty()) {  // each face is beside one ring, and in one
+    ring.clear();
+    for (const Dual_mesh::Index f : last)
+      for (const auto& [next, edge] : mesh.graph().neighbours(f))
+        if (!(thickness[next] > 0) && !mesh.is_wall(edge) && !std::exchange(is_reached[next], true))
+          ring.emplace_back(next, mean_of_neighbours(next));
+    last.clear();
+    for (const auto& [face, value] : ring) {
+      thickness[face] = value;
+      last.push_back(face);
+    }
+  }
+  for (double& t : thickness)
+    if (!(t > 0)) t = least;
   return number_of_gaps;
 }
 

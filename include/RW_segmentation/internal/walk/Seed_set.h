@@ -7,10 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -28,8 +25,6 @@ class Seed_set {
 
   /// A face that is a seed already takes the new label.
   void add(Index face, Label label) {
-    if (label == std::numeric_limits<Label>::max())
-      throw std::invalid_argument("label " + std::to_string(label) + " is too large");
     // Whatever needs memory comes first. A label that is noted for nothing does no harm.
     changed_labels_.push_back(label);
     if (const auto known = label_of_.find(face); known != label_of_.end()) {
