@@ -513,7 +513,7 @@ TEST(Integral_invariant_curvatures, OfAThinSheetDoNotSeeItsOtherSide) {
 
 TEST(Integral_invariant_curvatures, OfBallsRoundEverythingAreCountedAndFinite) {
   for (const double radius : {3., 100., 1e6, 1e308}) {
-    const auto result = measured(meshes::sphere(2), Ball_radius::absolute(radius));
+    const auto result = measured(meshes::scaled(meshes::sphere(2), 0.1), Ball_radius::absolute(radius));
     expect_all_finite(result);
     EXPECT_EQ(result.report.balls_round_everything, result.faces.size());
   }

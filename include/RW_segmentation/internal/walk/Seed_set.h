@@ -25,9 +25,11 @@ class Seed_set {
 
   /// A face that is a seed already takes the new label.
   void add(Index face, Label label) {
+    const auto known = label_of_.find(face);
+    if (known != label_of_.end() && known->second == label) return;
     // Whatever needs memory comes first. A label that is noted for nothing does no harm.
     changed_labels_.push_back(label);
-    if (const auto known = label_of_.find(face); known != label_of_.end()) {
+    if (known != label_of_.end()) {
       changed_labels_.push_back(known->second);
       known->second = find(face)->label = label;
     } else {
