@@ -49,7 +49,8 @@ namespace RW_segmentation {
 /// - Constrained edges are walls, over which no walk steps.
 ///
 /// \tparam FaceListGraph a model of CGAL's `FaceListGraph`; it must outlive the walk and keep its faces and edges
-/// \tparam Solver a model of `WalkSolver`: `Star_mesh_elimination` (the default, exact for every range of conductances) or
+/// \tparam Solver a model of `WalkSolver`: `Star_mesh_elimination` (the default, exact for conductances that are 0 or at least
+/// 1e-200 of the largest) or
 /// `Eigen_walk_solver<S>`
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`; holds
 /// for all that the object does

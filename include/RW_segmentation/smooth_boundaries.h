@@ -172,6 +172,7 @@ struct Traced_joining {
 /// \param np `vertex_point_map` (default: that of the mesh), `edge_is_constrained_map` (readable map from
 /// `edge_descriptor` to `bool`, default: no edge is): the walls, `callback` (`std::function<bool(double)>`, default: none)
 /// \returns a curve for each boundary, open ones first
+/// \throws std::runtime_error if a boundary runs along two edges between the same two vertices
 /// \throws std::invalid_argument if a face is no triangle, a coordinate is not finite, or a number of the policy is out
 /// of range
 /// \throws Cancelled

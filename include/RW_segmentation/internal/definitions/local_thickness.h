@@ -192,20 +192,22 @@ std::vector<double> shape_diameters(const Dual_mesh& mesh, const Ray_cone& cone,
 /// has none.
 /// \returns how many such faces there were
 inline std::size_t fill_gaps(const Dual_mesh& mesh, std::vector<double>& thickness) {
+  const auto is_measured = [&](Dual_mesh::Index f) { return thickness[f] > 0; };
+  const auto number_of_gaps =
+      static_cast<std::size_t>(std::count_if(thickness.begin(), thickness.end(), [](double t) { return !(t > 0); }));
+  if (number_of_gaps == 0 || number_of_gaps == thickness.size()) return number_of_gaps;
+
   double least = std::numeric_limits<double>::infinity();
   std::vector<Dual_mesh::Index> last;  // the faces that got a thickness last: first those where it was measured
   for (Dual_mesh::Index f = 0; f < thickness.size(); ++f)
-    if (thickness[f] > 0) {
+    if (is_measured(f)) {
       least = std::min(least, thickness[f]);
       last.push_back(f);
     }
-  const std::size_t number_of_gaps = thickness.size() - last.size();
-  if (last.empty()) return number_of_gaps;
-
   const auto mean_of_neighbours = [&](Dual_mesh::Index f) {
     double sum = 0, known = 0;
     for (const auto& [next, edge] : mesh.graph().neighbours(f)) {
-      if (!(thickness[next] > 0) || mesh.is_wall(edge)) continue;
+      if (!is_measured(next) || mesh.is_wall(edge)) continue;
       sum += thickness[next];
       ++known;
     }
@@ -217,7 +219,7 @@ inline std::size_t fill_gaps(const Dual_mesh& mesh, std::vector<double>& thickne
     ring.clear();
     for (const Dual_mesh::Index f : last)
       for (const auto& [next, edge] : mesh.graph().neighbours(f))
-        if (!(thickness[next] > 0) && !mesh.is_wall(edge) && !std::exchange(is_reached[next], true))
+        if (!is_measured(next) && !mesh.is_wall(edge) && !std::exchange(is_reached[next], true))
           ring.emplace_back(next, mean_of_neighbours(next));
     last.clear();
     for (const auto& [face, value] : ring) {
