@@ -274,6 +274,30 @@ TEST_F(Tiles, OtherNumbersOfSegmentsTakeTheLastStepsAlone) {
   EXPECT_EQ(take_labels(), two);
 }
 
+TEST_F(Tiles, AreSegmentedAnewWhereOlderFilesTakeTheirPlaces) {
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  const std::size_t faces = faces_[1];
+  write_tiles(meshes::subdivided(meshes::two_spheres_with_neck(2.6, 0.35, 40)));
+  for (std::size_t t = 0; t < 4; ++t)
+    fs::last_write_time(path(name(t)), fs::file_time_type::clock::now() - std::chrono::hours(99));
+  const Result step = run(command({"--tile-folder", "work", "--tile-step", "labels", "--tile", "1"}));
+  EXPECT_EQ(step.exit_code, 2);
+  EXPECT_NE(step.errors.find("tile_1.off: the file has changed"), std::string::npos) << step.errors;
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(labels("tile_1.seg").size(), 4 * faces);
+}
+
+TEST_F(Tiles, ThatCouldNotBeReadAreReadAgain) {
+  const std::string content = content_of(path(name(1)));
+  write(name(1), "nothing");
+  const auto time = fs::file_time_type::clock::now() - std::chrono::hours(99);
+  ASSERT_EQ(run(command({"--quiet", "--tile-folder", "work"})).exit_code, 6);
+  write(name(1), content);
+  fs::last_write_time(path(name(1)), time);
+  EXPECT_EQ(run(command({"--quiet", "--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(labels("tile_1.seg").size(), faces_[1]);
+}
+
 TEST_F(Tiles, FromSeedsHaveTheirLabels) {
   const std::vector<std::string> seeds = {"--seed", "0,0,-2.5=9", "--seed", "0,0.4,0=4", "--seed", "0.5,0,2=70"};
   std::vector<std::string> arguments = command({"--report", "report.json", "--tile-folder", "work"});

@@ -84,18 +84,12 @@ class Tile_steps {
     for (const char* file : step.files) std::filesystem::remove(path(step, file, tile));
   }
 
-  /// Whether a tile has changed since it was surveyed, or its walls.
+  /// Whether a tile is not the file that was surveyed, or its walls are not, or whether it could not be read then.
   bool has_changed(std::size_t tile) const {
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const auto of_survey = fs::last_write_time(folder_.path("survey", tile), error);
-    if (error) return false;
-    const auto is_newer = [&](const std::string& path) {
-      const auto time = fs::last_write_time(path, error);
-      return error || time > of_survey;
-    };
-    const std::string& walls = tasks_[tile].files.constraints;
-    return is_newer(tasks_[tile].mesh) || (!walls.empty() && is_newer(walls));
+    if (!std::filesystem::exists(folder_.path("survey", tile))) return false;
+    std::string failure, sources;
+    folder_.read_of_tile_into(tile, "survey", failure, sources);
+    return !failure.empty() || sources != sources_in_words(tile);
   }
 
   /// The seeds of the user in words, which the steps from `places` on depend on.
@@ -150,10 +144,28 @@ class Tile_steps {
   }
 
   std::string failure_of(std::size_t tile) const {
-    RW::Tile_survey survey;
     std::string failure;
-    folder_.read_of_tile_into(tile, "survey", survey, failure);
+    folder_.read_of_tile_into(tile, "survey", failure);
     return failure;
+  }
+
+  /// What tells files of a tile from others that take their place, whichever are newer: sizes and times.
+  std::string sources_in_words(std::size_t tile) const {
+    namespace fs = std::filesystem;
+    Json sources = Json::array();
+    for (const std::string& path : {tasks_[tile].mesh, tasks_[tile].files.constraints}) {
+      std::error_code no_size, no_time;
+      const auto size = fs::file_size(path, no_size);
+      const auto time = fs::last_write_time(path, no_time).time_since_epoch().count();
+      sources.push_back(no_size || no_time ? Json(nullptr) : Json::array({size, time}));
+    }
+    return sources.dump();
+  }
+
+  /// Refuses a tile that is not what was surveyed. \throws mesh_files::Unreadable_file
+  void check_faces(std::size_t tile, std::size_t faces, std::size_t surveyed) const {
+    if (faces != surveyed)
+      throw mesh_files::Unreadable_file(tasks_[tile].mesh + ": the file has changed since the step \"survey\" read it");
   }
 
   /// A tile as it is in its file, and repaired: each time in the same way.
@@ -178,6 +190,7 @@ class Tile_steps {
     std::vector<Index> tile_faces;      // by face of the file that is written
     std::vector<std::size_t> left_out;  // faces of the file
     std::string failure;
+    const std::string sources = sources_in_words(tile);  // before they are read: what changes meanwhile is read again
     try {
       mesh_files::Polygon_soup soup;
       Oriented_mesh input = read_tile(tile, soup);
@@ -204,15 +217,15 @@ class Tile_steps {
       of_pieces.push_back(pieces.size() == 1 ? survey : RW::survey_tile(piece.tile));
     folder_.write_of_tile(tile, "connected", pieces);
     folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
-    folder_.write_of_tile(tile, "survey", survey, failure, of_pieces);
+    folder_.write_of_tile(tile, "survey", failure, sources, survey, of_pieces);
   }
 
   void plan() const {
     std::vector<RW::Tile_survey> surveys(tasks_.size());
     std::vector<std::vector<RW::Tile_survey>> of_pieces(tasks_.size());
     for (std::size_t t = 0; t < tasks_.size(); ++t) {
-      std::string failure;
-      folder_.read_of_tile_into(t, "survey", surveys[t], failure, of_pieces[t]);
+      std::string failure, sources;
+      folder_.read_of_tile_into(t, "survey", failure, sources, surveys[t], of_pieces[t]);
     }
     folder_.write("parts", RW::parts_of_tiles(of_pieces, tolerance(), is_parted()));
     folder_.write("plan", RW::plan_tiles(surveys, tolerance()));
@@ -246,8 +259,9 @@ class Tile_steps {
       Oriented_mesh input = read_tile(tile, soup);
       const Wall_map walls = all_walls(tile, soup, input.mesh);
       const RW::Tile_of<Mesh> arrays(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
-      strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")},
-                                labels_of(tile, folder_.read<Tile_segments>("segments")));
+      const std::vector<std::size_t> label = labels_of(tile, folder_.read<Tile_segments>("segments"));
+      check_faces(tile, arrays.number_of_faces(), label.size());
+      strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")}, label);
     }
     folder_.write_of_tile(tile, "strip", strip);
   }
@@ -283,6 +297,7 @@ class Tile_steps {
                               std::vector<std::size_t> label) const {
     Labelled_tile labelled;
     labelled.soup = read_input(tasks_[tile].mesh, options_.format);
+    check_faces(tile, labelled.soup.number_of_faces(), tile_faces.size());
     for (const Index face : tile_faces) labelled.faces.emplace_back(face);
     labelled.result.label = std::move(label);
     return labelled;
@@ -293,6 +308,7 @@ class Tile_steps {
   Labelled_tile with_boundaries(std::size_t tile, const std::vector<std::size_t>& label, Output_files& files) const {
     Labelled_tile labelled;
     Oriented_mesh input = read_tile(tile, labelled.soup);
+    check_faces(tile, input.mesh.number_of_faces(), label.size());
     const Wall_map walls = all_walls(tile, labelled.soup, input.mesh);
     labelled.result.label.resize(label.size());
     const RW::Tile_of<Mesh> numbered(input.mesh);
