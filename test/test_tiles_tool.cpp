@@ -216,14 +216,17 @@ TEST_F(Tiles, GetTheSameLabelsWhenWorkersAndTheProgramAreKilled) {
   const auto undisturbed = take_labels();
 
   using namespace std::chrono_literals;
-  const pid_t program = start(command({"--tile-folder", "work", "--workers", "2"}));
-  std::this_thread::sleep_for(150ms);
-  std::ifstream children("/proc/" + std::to_string(program) + "/task/" + std::to_string(program) + "/children");
-  pid_t worker = 0;
-  if (children >> worker) kill(worker, SIGKILL);
-  const Result result = wait(program);
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(take_labels(), undisturbed);
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    fs::remove_all(path("work"));
+    const pid_t program = start(command({"--tile-folder", "work", "--workers", "2"}));
+    std::this_thread::sleep_for(150ms);
+    std::ifstream children("/proc/" + std::to_string(program) + "/task/" + std::to_string(program) + "/children");
+    pid_t worker = 0;
+    if (children >> worker) kill(worker, signal);
+    const Result result = wait(program);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(take_labels(), undisturbed);
+  }
 
   fs::remove_all(path("work"));
   for (const auto pause : {50ms, 150ms, 250ms}) {

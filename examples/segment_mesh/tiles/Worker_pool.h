@@ -35,6 +35,7 @@ struct Job_costs {
   double seconds = 0;     ///< of processors, all jobs together
   double megabytes = 0;   ///< of memory, the largest job
   std::size_t again = 0;  ///< jobs that were lost and done once more
+  std::size_t lost = 0;   ///< jobs that were lost each time
 };
 
 /// Does jobs in processes of their own, several at a time. A job whose process is killed is done again.
@@ -64,6 +65,7 @@ class Worker_pool {
         waiting.push_back(ended.job);
         ++costs.again;
       } else if (ended.is_killed || ended.code != success) {
+        costs.lost += ended.is_killed;
         if (outcome == success) outcome = ended.is_killed ? failed_computation : ended.code;
       } else {
         show_done(++done);
@@ -122,8 +124,8 @@ class Worker_pool {
       for (const timeval& time : {usage.ru_utime, usage.ru_stime})
         costs.seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
       costs.megabytes = std::max(costs.megabytes, static_cast<double>(usage.ru_maxrss) * 1024 / 1e6);
-      return {job, WIFSIGNALED(status),
-              WIFEXITED(status) ? static_cast<Exit_code>(WEXITSTATUS(status)) : failed_computation};
+      const Exit_code code = WIFEXITED(status) ? static_cast<Exit_code>(WEXITSTATUS(status)) : failed_computation;
+      return {job, WIFSIGNALED(status) || code == cancelled, code};  // cancelled by a signal that only the worker got
     }
   }
 

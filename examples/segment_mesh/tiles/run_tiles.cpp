@@ -143,6 +143,10 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
     if (of_step.again > 0 && !options.is_quiet)
       say("step " + std::string(step.name) + ": " + counted(of_step.again, "job was lost", "jobs were lost") +
           " and done again");
+    if (of_step.lost > 0)
+      say("step " + std::string(step.name) + ": " +
+          counted(of_step.lost, "job was lost each time, as its worker was killed",
+                  "jobs were lost each time, as their workers were killed"));
     if (code != success) return code;
     costs[step.name] = {{"jobs", jobs.size()}, {"seconds", of_step.seconds}, {"largest_job_mb", of_step.megabytes}};
     if (step.name == std::string("survey") && steps.failures().size() == steps.number_of_tiles()) {
