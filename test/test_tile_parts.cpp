@@ -179,6 +179,12 @@ TEST(PartsOfTiles, MeetBetweenTilesButNotOverCracksWithinOne) {
   EXPECT_EQ(parts_of({as_tile(left), as_tile(right)}).parts.size(), 1U);
 }
 
+TEST(PartsOfTiles, DoNotMeetInASingleVertex) {
+  const Shape left = meshes::plane(2), right = meshes::moved(meshes::plane(2), {1, 1, 0});
+  EXPECT_EQ(parts_of({as_tile(left), as_tile(right)}).parts.size(), 2U);
+  EXPECT_EQ(parts_of({as_tile(left), as_tile(right)}, false).parts.size(), 1U);
+}
+
 TEST(PartsOfTiles, FarSmallerThanTheWholeHaveABoxOfAHundredth) {
   const Cut_mesh mesh =
       in_cells(meshes::together(meshes::scaled(meshes::cube(2), 1000), meshes::moved(meshes::cube(2), {-5, 0, 0})), 3);

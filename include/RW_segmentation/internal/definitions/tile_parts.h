@@ -15,6 +15,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -64,11 +65,31 @@ inline void share_walls(const Tile& tile, std::vector<Tile_piece>& pieces) {
   }
 }
 
-/// By tile of a plan: the lowest of those that it is connected to, itself included.
+/// The pairs of tiles of a plan that have more than one vertex in common, as those have that share a side.
+inline std::vector<std::array<Dual_mesh::Index, 2>> tiles_beside_each_other(const Tile_plan& plan) {
+  using Index = Dual_mesh::Index;
+  std::vector<std::array<Index, 2>> places;  // the vertex, the tile
+  for (std::size_t t = 0; t < plan.tiles.size(); ++t)
+    for (const auto& shared : plan.tiles[t].shared_vertices) places.push_back({shared.id, static_cast<Index>(t)});
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<std::array<Index, 2>> pairs;  // once for each vertex
+  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+    while (end < places.size() && places[end][0] == places[begin][0]) ++end;
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = i + 1; j < end; ++j) pairs.push_back({places[i][1], places[j][1]});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::array<Index, 2>> result;
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    if (pairs[i] == pairs[i - 1] && (result.empty() || result.back() != pairs[i])) result.push_back(pairs[i]);
+  return result;
+}
+
+/// By tile of a plan: the lowest of those that it is connected to, itself included. To meet in one vertex connects nothing.
 inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan) {
   boost::disjoint_sets_with_storage<> sets(plan.tiles.size());
-  for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece)
-    for (const auto neighbour : plan.tiles[piece].neighbours) sets.union_set(piece, std::size_t(neighbour));
+  for (const auto& [a, b] : tiles_beside_each_other(plan)) sets.union_set(std::size_t(a), std::size_t(b));
   std::vector<Dual_mesh::Index> lowest(plan.tiles.size(), std::numeric_limits<Dual_mesh::Index>::max());
   std::vector<Dual_mesh::Index> connected;
   for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece) {
