@@ -759,6 +759,25 @@ TEST_F(Tiles, RefuseTheWorkOfOthers) {
   }
 }
 
+TEST_F(Tiles, LeaveFilesOfOthersAlone) {
+  fs::create_directory(path("work"));
+  write("work/plan", "mine");
+  expect_failure(3, "which no step has left there", command({"--tile-folder", "work"}));
+  EXPECT_EQ(content_of(path("work/plan")), "mine");
+  fs::remove(path("work/plan"));
+  expect_failure(1, "is what a step leaves", command({"--tile-folder", "work", "--report", "work/report"}));
+  fs::rename(path(name(0)), path("0.off"));
+  fs::rename(path(name(1)), path("1.off"));
+  expect_failure(1, "is what a step leaves", {"0.off", "1.off", "--tiled", "--tile-folder", ".", "--labels", "labels_%"});
+}
+
+TEST_F(Tiles, MayHaveNamesThatAreNotUtf8) {
+  const std::string latin = "caf\xe9.off";
+  fs::rename(path(name(1)), path(latin));
+  ASSERT_EQ(run({name(0), latin, "--tiled", "--labels", "%.seg", "--report", "report.json"}).exit_code, 0);
+  EXPECT_EQ(labels("caf\xe9.seg").size(), faces_[1]);
+}
+
 TEST_F(Tiles, RefuseWhatTheyCannotHave) {
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--coarse"},
                                                   {"--seed", "3"},

@@ -133,8 +133,8 @@ struct Tile_parts {
   std::vector<Piece> neighbours(std::size_t tile, std::size_t place) const;
 };
 
-/// Finds out which connected pieces belong together: those of different tiles that meet in more than one vertex. Each part has a unit box of its own,
-/// of a hundredth of the whole at least: coordinates are hardly more exact.
+/// Finds out which connected pieces belong together: those of different tiles that meet in more than one vertex. Each part
+/// has a unit box of its own, of a hundredth of the whole at least: coordinates are hardly more exact.
 /// \param surveys by tile, and by connected piece of it
 /// \param tolerance see `plan_tiles()`
 /// \param by_component otherwise all are one part

@@ -61,6 +61,9 @@ class Tile_steps {
   Tile_steps(const Tile_steps&) = delete;
   Tile_steps& operator=(const Tile_steps&) = delete;
 
+  /// Bytes of names that are not UTF-8 are replaced.
+  static std::string in_words(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
   /// In the order in which they are done.
   const std::vector<Tile_step>& all() const { return steps_; }
 
@@ -72,6 +75,16 @@ class Tile_steps {
   }
 
   std::size_t number_of_tiles() const { return tasks_.size(); }
+
+  /// All files that steps leave.
+  std::vector<std::string> files() const {
+    std::vector<std::string> files;
+    for (const Tile_step& step : steps_)
+      for (const char* file : step.files)
+        for (std::size_t t = 0; t < (step.is_of_each_tile ? tasks_.size() : 1); ++t)
+          files.push_back(path(step, file, t));
+    return files;
+  }
 
   /// Whether a step has left all of its files.
   bool is_done(const Tile_step& step, std::size_t tile) const {
@@ -109,7 +122,7 @@ class Tile_steps {
                        {"version", version()}};
     parameters.update(options_.is_engineering ? surfaces_.parameters() : walk_.parameters());
     for (const Task& task : tasks_) parameters["tiles"].push_back(task.mesh);
-    return parameters.dump();
+    return in_words(parameters);
   }
 
   /// The tiles that could not be read, each with the reason.
@@ -375,7 +388,7 @@ class Tile_steps {
     else
       walk_.complete(report);
     mesh_files::Output_file file(folder_.path("report"));
-    file.write(report.dump() + "\n");
+    file.write(in_words(report) + "\n");
     file.commit();
   }
 

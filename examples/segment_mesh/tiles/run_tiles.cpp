@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -48,9 +49,15 @@ class Work_folder {
 
   const std::string& path() const { return path_; }
 
-  /// Refuses a folder that other tiles or options have left their files in.
-  void claim(const std::string& parameters) const {
+  /// Refuses a folder that other tiles or options have left their files in, or where others would be taken for such files.
+  /// \param files that steps leave
+  void claim(const std::string& parameters, const std::vector<std::string>& files) const {
     constexpr const char* file = "parameters.json";
+    if (!fs::exists(path_ + "/" + file))
+      for (const std::string& of_step : files)
+        if (fs::exists(of_step))
+          throw Argument_out_of_range("--tile-folder " + path_ + " holds " + of_step +
+                                      ", which no step has left there: give another folder");
     if (holds_other(file, parameters))
       throw Argument_out_of_range("--tile-folder " + path_ +
                                   " holds the work on other tiles or with other options: give another folder, or "
@@ -78,6 +85,25 @@ class Work_folder {
 
 constexpr const char* seeds_file = "seeds.json";
 constexpr const char* parting_file = "parting";
+
+/// Refuses outputs that would take the places of what steps leave.
+void check_outputs(const std::vector<Task>& tiles, const std::string& report, const Tile_steps& steps,
+                   const std::string& folder) {
+  std::set<fs::path> taken;
+  for (const std::string& file : steps.files()) taken.insert(fs::path(file).filename());
+  const fs::path folder_of_steps = fs::canonical(folder);
+  const auto check = [&](const char* option, const std::string& path) {
+    std::error_code error;  // of pipes, which have names that lead nowhere
+    const fs::path place = fs::weakly_canonical(fs::absolute(path), error);
+    if (place.parent_path() == folder_of_steps && taken.count(place.filename()) > 0)
+      throw CLI::ValidationError(option, path + " is what a step leaves in --tile-folder: give another name");
+  };
+  for (const Task& tile : tiles) {
+    for (const auto& [option, path] : written_files(tile.files)) check(option, path);
+    if (!tile.files.split.empty()) check("--split", tile.files.split);
+  }
+  if (!report.empty()) check("--report", report);
+}
 
 /// Forgets what has been left by all steps, if parts are taken together that were not or the other way round; by those from
 /// the second one on, if a tile has changed; by those that seeds matter to, if the user gives others; and in any case by those
@@ -168,7 +194,8 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
                                "it finds what other steps have left in a folder: give --tile-folder, too");
   const Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
-  folder.claim(steps.parameters());
+  check_outputs(tiles, options.files.report, steps, folder.path());
+  folder.claim(steps.parameters(), steps.files());
   survive_signals();
   if (!options.tile_step.empty()) {
     if (folder.holds_other(seeds_file, steps.seeds_in_words()) ||
@@ -190,7 +217,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   if (code != success) return code;
   if (!options.files.report.empty()) {
     mesh_files::Output_file file(options.files.report);
-    file.write(report.dump() + "\n");
+    file.write(Tile_steps::in_words(report) + "\n");
     file.commit();
   }
   if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
