@@ -256,6 +256,25 @@ TEST_F(Tiles, OfWhichOneCannotBeReadLeaveTheOthersTheirSegments) {
   EXPECT_EQ(run(command({"--quiet"})).exit_code, 2);
 }
 
+TEST_F(Tiles, OfWhichOneCannotBeReadAreToldByTheStepThatReports) {
+  write("tile_1.off", "nothing");
+  ASSERT_EQ(run(command({"--quiet", "--tile-folder", "work"})).exit_code, 6);
+  const Result result =
+      run(command({"--quiet", "--tile-folder", "work", "--tile-step", "report", "--report", "report.json"}));
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_NE(result.errors.find("tile_1.off"), std::string::npos) << result.errors;
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["tiles"], 4);
+}
+
+TEST_F(Tiles, RefuseOutputsThatCannotBeWrittenBeforeTheWork) {
+  expect_failure(5, "there is no such folder", command({"--tile-folder", "work", "--report", "none/report.json"}));
+  expect_failure(5, "there is no such folder", {name(0), name(1), "--tiled", "--tile-folder", "work", "--labels", "%/a.seg"});
+  fs::create_directory(path("tile_2"));
+  write("tile_2/mine", "");
+  expect_failure(5, "the folder is not empty", command({"--tile-folder", "work", "--split", "%"}));
+  EXPECT_FALSE(fs::exists(path("work/survey_0")));
+}
+
 TEST_F(Tiles, OtherNumbersOfSegmentsTakeTheLastStepsAlone) {
   ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);
   const auto shape_of = [&] { return fs::last_write_time(path("work/shape_0")); };

@@ -127,6 +127,24 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
+/// Refuses outputs that cannot be written, before the work.
+void check_folders(const std::vector<Task>& tiles, const std::string& report) {
+  const auto check = [](const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder))
+      throw mesh_files::Unwritable_file(path + ": there is no such folder");
+  };
+  for (const Task& tile : tiles) {
+    for (const auto& [option, path] : written_files(tile.files)) check(path);
+    if (tile.files.split.empty()) continue;
+    check(tile.files.split);
+    std::error_code error;  // it is not there
+    if (!fs::is_empty(tile.files.split, error) && !error)
+      throw mesh_files::Unwritable_file(tile.files.split + ": the folder is not empty");
+  }
+  if (!report.empty()) check(report);
+}
+
 /// Lets memory that is freed be used again in this process, which ends after a step: to give it back and to get it anew takes
 /// a tenth of the time of a tile with 2.5 million faces.
 void keep_freed_memory() {
@@ -185,6 +203,24 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
   return success;
 }
 
+/// Writes the report and tells of what is odd or failed.
+Exit_code tell(const Json& report, const Options& options) {
+  if (!options.files.report.empty()) {
+    mesh_files::Output_file file(options.files.report);
+    file.write(Tile_steps::in_words(report) + "\n");
+    file.commit();
+  }
+  if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
+    say("some tiles are not oriented alike where they meet, and no segment goes on there");
+  if (const auto components = report.value("unseeded_components", std::size_t(0)); components > 0 && !options.is_quiet)
+    say(counted(components, "component") + " without a seed, each a segment of its own");
+  for (const Json& failed : report["failed"]) say(failed.get<std::string>());
+  if (report["failed"].empty()) return success;
+  say(std::to_string(report["failed"].size()) + " of " + counted(report["tiles"].get<std::size_t>(), "tile") +
+      " could not be read; the others have their segments");
+  return some_meshes_failed;
+}
+
 }  // namespace
 
 Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& report) {
@@ -211,24 +247,12 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
     if (options.tile && *options.tile >= tiles.size())
       throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
                                   counted(tiles.size(), "tile") + ", numbered from 0");
-    return do_step(step, options.tile.value_or(0), options);
+    const Exit_code code = do_step(step, options.tile.value_or(0), options);
+    return code == success && options.tile_step == "report" ? tell(steps.read_report(), options) : code;
   }
+  check_folders(tiles, options.files.report);
   const Exit_code code = do_all_steps(steps, folder, options, report);
-  if (code != success) return code;
-  if (!options.files.report.empty()) {
-    mesh_files::Output_file file(options.files.report);
-    file.write(Tile_steps::in_words(report) + "\n");
-    file.commit();
-  }
-  if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
-    say("some tiles are not oriented alike where they meet, and no segment goes on there");
-  if (const auto components = report.value("unseeded_components", std::size_t(0)); components > 0 && !options.is_quiet)
-    say(counted(components, "component") + " without a seed, each a segment of its own");
-  for (const Json& failed : report["failed"]) say(failed.get<std::string>());
-  if (report["failed"].empty()) return success;
-  say(std::to_string(report["failed"].size()) + " of " + counted(tiles.size(), "tile") +
-      " could not be read; the others have their segments");
-  return some_meshes_failed;
+  return code == success ? tell(report, options) : code;
 }
 
 }  // namespace segment_mesh
