@@ -790,6 +790,12 @@ TEST_F(Tiles, LeaveFilesOfOthersAlone) {
   expect_failure(1, "is what a step leaves", {"0.off", "1.off", "--tiled", "--tile-folder", ".", "--labels", "labels_%"});
 }
 
+TEST_F(Tiles, MayHaveOutputsInFoldersWithPercentSigns) {
+  fs::create_directory(path("5%"));
+  ASSERT_EQ(run({name(0), name(1), "--tiled", "--labels", "5%%/%.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("5%/tile_1.seg").size(), faces_[1]);
+}
+
 TEST_F(Tiles, MayHaveNamesThatAreNotUtf8) {
   const std::string latin = "caf\xe9.off";
   fs::rename(path(name(1)), path(latin));

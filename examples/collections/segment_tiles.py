@@ -11,6 +11,7 @@ again, the program does what is left. Needs dask.distributed.
 from __future__ import annotations
 
 import argparse
+import json
 import shlex
 import subprocess
 from pathlib import Path
@@ -54,6 +55,24 @@ def run_step(command: list[str], step: str, tile: int | None) -> None:
         raise RuntimeError(f"step {step}{where}: exit code {result.returncode}: {message}")
 
 
+def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles: list[str], request: list[str]) -> None:
+    """Remove what steps have left for tiles that have changed since, or, but for the first steps, for another request."""
+    surveys = [work / f"survey_{tile}" for tile in range(len(tiles))]
+    is_old = False
+    for survey, tile in zip(surveys, tiles):
+        if survey.exists() and survey.stat().st_mtime < Path(tile).stat().st_mtime:
+            survey.unlink()
+        is_old = is_old or not survey.exists()
+    request_file = work / "request.json"
+    is_other = not request_file.exists() or request_file.read_text() != json.dumps(request)
+    names = [step for step, _, _ in steps]
+    first = names.index("plan") if is_old else names.index("merge") if is_other else len(names)
+    for _, is_of_each_tile, file in steps[first:]:
+        for place in range(len(tiles)) if is_of_each_tile else [None]:
+            (work / (file if place is None else f"{file}_{place}")).unlink(missing_ok=True)
+    request_file.write_text(json.dumps(request))
+
+
 def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options: list[str]) -> None:
     """Run all steps that have not left their files yet, one after the other, each on all tiles at the same time."""
     work.mkdir(parents=True, exist_ok=True)
@@ -61,12 +80,15 @@ def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options
     tile_list = work / "tiles.txt"
     tile_list.write_text("".join(f"{tile}\n" for tile in tiles))
     command = ["segment_mesh", "--quiet", "--tiled", "--list", str(tile_list)]
-    command += ["--tile-folder", str(work), "--labels", f"{outputs}/%.seg", *options]
+    labels = str(outputs).replace("%", "%%") + "/%.seg"
+    command += ["--tile-folder", str(work), "--labels", labels, *options]
     of_method = STEPS_OF_SURFACES if "--engineering" in options else STEPS_OF_WALKS
     words = {word.split("=")[0] for word in options}
     smooths_boundaries = "--refine" in words or words >= {"--smooth", "--boundaries"}
     of_boundaries = STEPS_OF_SMOOTH_BOUNDARIES if smooths_boundaries else ()
-    for step, is_of_each_tile, file in (*FIRST_STEPS, *of_method, MERGE, *of_boundaries, *LAST_STEPS):
+    steps = (*FIRST_STEPS, *of_method, MERGE, *of_boundaries, *LAST_STEPS)
+    forget_old_work(work, steps, tiles, [*tiles, str(outputs), *options])
+    for step, is_of_each_tile, file in steps:
         places: list[int | None] = list(range(len(tiles))) if is_of_each_tile else [None]
         left = [place for place in places if not (work / (file if place is None else f"{file}_{place}")).exists()]
         tasks = [client.submit(run_step, command, step, place, pure=False, retries=2) for place in left]

@@ -154,8 +154,8 @@ inline void check_patterns(const Files& patterns) {
   for (const auto& [option, path] : written) {
     if (!has_placeholder(path))
       throw CLI::ValidationError(option, path + ": several meshes need a % in it, which stands for their names");
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!has_placeholder(folder.string()) && !folder.empty() && !std::filesystem::is_directory(folder))
+    const std::string pattern = std::filesystem::path(path).parent_path().string();
+    if (!has_placeholder(pattern) && !pattern.empty() && !std::filesystem::is_directory(path_for("", pattern)))
       throw mesh_files::Unwritable_file(path + ": there is no such folder");
   }
 }
