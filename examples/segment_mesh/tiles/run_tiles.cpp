@@ -231,6 +231,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   const Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
   check_outputs(tiles, options.files.report, steps, folder.path());
+  if (options.tile_step.empty()) check_folders(tiles, options.files.report);
   folder.claim(steps.parameters(), steps.files());
   survive_signals();
   if (!options.tile_step.empty()) {
@@ -250,7 +251,6 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
     const Exit_code code = do_step(step, options.tile.value_or(0), options);
     return code == success && options.tile_step == "report" ? tell(steps.read_report(), options) : code;
   }
-  check_folders(tiles, options.files.report);
   const Exit_code code = do_all_steps(steps, folder, options, report);
   return code == success ? tell(report, options) : code;
 }
