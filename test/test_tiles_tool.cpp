@@ -289,6 +289,11 @@ TEST_F(Tiles, OtherNumbersOfSegmentsTakeTheLastStepsAlone) {
     for (std::size_t f = 0; f < faces_[t]; ++f) coarser[five[t][f]].insert(two[t][f]);
   for (const auto& [segment, segments] : coarser) EXPECT_EQ(segments.size(), 1U);
 
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "30"})).exit_code, 0);  // with more seeds
+  const auto many = take_labels();
+  ASSERT_EQ(run(command({"--segments", "30"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), many);
+
   write(name(0), content_of(path(name(0))) + "# changed\n");
   fs::last_write_time(path(name(0)), fs::file_time_type::clock::now() + std::chrono::seconds(5));
   ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);

@@ -108,6 +108,11 @@ class Tile_steps {
   /// The seeds of the user in words, which the steps from `places` on depend on.
   std::string seeds_in_words() const { return walk_.seeds_in_words(); }
 
+  /// How many seeds place themselves, in words, which the steps from `shape` on depend on.
+  std::string seeding_in_words() const {
+    return options_.is_engineering ? "no seeds" : counted(walk_.automatic_seeds(), "seed");
+  }
+
   /// Whether connected parts are segmented each by itself, in words; all steps depend on it.
   std::string parting_in_words() const { return is_parted() ? "each part by itself" : "all parts as a whole"; }
 

@@ -62,8 +62,11 @@ class Walk_steps {
     return seeds.dump();
   }
 
+  /// How many seeds place themselves, which the steps from `shape` on depend on.
+  std::size_t automatic_seeds() const { return method_.seeds; }
+
   /// What makes all steps what they are.
-  Json parameters() const { return {{"smoothing", method_.smoothing.radius}, {"seeds", method_.seeds}}; }
+  Json parameters() const { return {{"smoothing", method_.smoothing.radius}}; }
 
   /// The label of a segment: where seeds are the user's theirs, and those after the largest one for parts out of reach.
   std::size_t label_of(std::size_t segment) const {

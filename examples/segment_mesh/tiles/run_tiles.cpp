@@ -85,6 +85,7 @@ class Work_folder {
 
 constexpr const char* seeds_file = "seeds.json";
 constexpr const char* parting_file = "parting";
+constexpr const char* seeding_file = "seeding";
 
 /// Refuses outputs that would take the places of what steps leave.
 void check_outputs(const std::vector<Task>& tiles, const std::string& report, const Tile_steps& steps,
@@ -106,8 +107,8 @@ void check_outputs(const std::vector<Task>& tiles, const std::string& report, co
 }
 
 /// Forgets what has been left by all steps, if parts are taken together that were not or the other way round; by those from
-/// the second one on, if a tile has changed; by those that seeds matter to, if the user gives others; and in any case by those
-/// that tell of levels.
+/// the second one on, if a tile has changed; by those that seeds matter to, if there are more or fewer or the user gives others;
+/// and in any case by those that tell of levels.
 void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   bool is_any_new = false;
   for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) {
@@ -116,7 +117,12 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   }
   const bool has_other_seeds = folder.holds_other(seeds_file, steps.seeds_in_words());
   const bool is_parted_otherwise = folder.holds_other(parting_file, steps.parting_in_words());
-  const std::string first = is_parted_otherwise ? "survey" : is_any_new ? "plan" : has_other_seeds ? "places" : "merge";
+  const bool is_seeded_otherwise = folder.holds_other(seeding_file, steps.seeding_in_words());
+  const std::string first = is_parted_otherwise   ? "survey"
+                            : is_any_new          ? "plan"
+                            : is_seeded_otherwise ? "shape"
+                            : has_other_seeds     ? "places"
+                                                  : "merge";
   bool is_old = false;
   for (const Tile_step& step : steps.all()) {
     is_old = is_old || step.name == first;
@@ -124,6 +130,7 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
       steps.forget(step, t);
   }
   folder.keep(parting_file, steps.parting_in_words());
+  folder.keep(seeding_file, steps.seeding_in_words());
   folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
@@ -236,10 +243,12 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   survive_signals();
   if (!options.tile_step.empty()) {
     if (folder.holds_other(seeds_file, steps.seeds_in_words()) ||
-        folder.holds_other(parting_file, steps.parting_in_words()))
+        folder.holds_other(parting_file, steps.parting_in_words()) ||
+        folder.holds_other(seeding_file, steps.seeding_in_words()))
       throw Argument_out_of_range("--tile-folder " + folder.path() +
                                   " holds the work from other seeds: give another folder, or leave --tile-step out");
     folder.keep(parting_file, steps.parting_in_words());
+    folder.keep(seeding_file, steps.seeding_in_words());
     folder.keep(seeds_file, steps.seeds_in_words());
     const Tile_step& step = steps.named(options.tile_step);
     if (step.is_of_each_tile != options.tile.has_value())
