@@ -835,6 +835,7 @@ TEST_F(Tiles, RefuseWhatTheyCannotHave) {
   expect_failure(3, "seeds 0 and 1, counted from 0, have different labels and the same closest face",
                  command({"--seed", "0,0,2=1", "--seed", "0,0,2=2"}));
   EXPECT_EQ(run({name(0), name(1), "--labels", "%.seg", "--workers", "2"}).exit_code, 1);
+  expect_failure(5, "TMPDIR", command({}), [] { setenv("TMPDIR", "none", 1); });
   EXPECT_EQ(run({"-", name(1), "--tiled", "--labels", "%.seg"}).exit_code, 1);
   for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(fs::exists(path("tile_" + std::to_string(t) + ".seg")));
 }
@@ -846,6 +847,7 @@ TEST_F(Tiles, LeaveNoTemporaryFolderWhenStopped) {
     const pid_t program = start(command({}), [] { setenv("TMPDIR", ".", 1); });
     std::this_thread::sleep_for(pause);
     kill(program, SIGTERM);
+    kill(program, SIGINT);
     wait(program);
     for (const auto& entry : fs::directory_iterator(path(""))) EXPECT_FALSE(entry.is_directory()) << entry.path();
   }

@@ -57,13 +57,16 @@ inline void interrupt(int signal) {
   setitimer(ITIMER_REAL, &patience, nullptr);
 }
 
+/// Asks the work to end, which looks at it often and has a folder to remove then, at further signals, too.
+inline void ask_to_end(int) { is_interrupted = 1; }
+
 /// Answers what would end the program while files are not complete. Who has it run after hanging up goes on to.
-inline void survive_signals() {
+inline void survive_signals(void (*answer)(int) = interrupt) {
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
   action.sa_handler = end_at_once;
   sigaction(SIGALRM, &action, nullptr);
-  action.sa_handler = interrupt;
+  action.sa_handler = answer;
   for (const int signal : {SIGINT, SIGTERM, SIGQUIT, SIGXCPU}) sigaction(signal, &action, nullptr);
   struct sigaction old {};
   if (sigaction(SIGHUP, nullptr, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

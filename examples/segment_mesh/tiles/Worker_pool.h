@@ -95,7 +95,8 @@ class Worker_pool {
       running_[child] = job;
       return;
     }
-    for (const int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP}) std::signal(signal, end_quietly);
+    for (const int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGXCPU}) std::signal(signal, end_quietly);
+    if (is_interrupted) ::_exit(cancelled);
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no worker outlives the program
     if (::getppid() != parent) ::_exit(cancelled);
@@ -130,8 +131,6 @@ class Worker_pool {
   }
 
   [[noreturn]] void stop() {
-    const itimerval never{};  // to remove what workers have left may take longer than the patience after a signal
-    ::setitimer(ITIMER_REAL, &never, nullptr);
     for (const auto& [child, job] : running_) ::kill(child, SIGTERM);
     for (const auto& [child, job] : running_) ::waitpid(child, nullptr, 0);
     running_.clear();

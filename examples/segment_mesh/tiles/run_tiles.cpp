@@ -33,7 +33,8 @@ class Work_folder {
   explicit Work_folder(std::string path) : path_(std::move(path)) {
     std::error_code error;
     if (path_.empty()) {
-      path_ = (fs::temp_directory_path() / ("segment_mesh_" + std::to_string(std::random_device()()))).string();
+      path_ = (fs::temp_directory_path(error) / ("segment_mesh_" + std::to_string(std::random_device()()))).string();
+      if (error) throw mesh_files::Unwritable_file("the folder for temporary files (TMPDIR): " + error.message());
       is_temporary_ = fs::create_directory(path_, error);
       if (!is_temporary_) throw mesh_files::Unwritable_file(path_ + ": cannot be made");
     } else if (fs::create_directories(path_, error); error) {
@@ -240,7 +241,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   check_outputs(tiles, options.files.report, steps, folder.path());
   if (options.tile_step.empty()) check_folders(tiles, options.files.report);
   folder.claim(steps.parameters(), steps.files());
-  survive_signals();
+  survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
   if (!options.tile_step.empty()) {
     if (folder.holds_other(seeds_file, steps.seeds_in_words()) ||
         folder.holds_other(parting_file, steps.parting_in_words()) ||
