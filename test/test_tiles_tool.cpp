@@ -797,7 +797,8 @@ TEST_F(Tiles, LeaveFilesOfOthersAlone) {
 
 TEST_F(Tiles, MayHaveOutputsInFoldersWithPercentSigns) {
   fs::create_directory(path("5%"));
-  ASSERT_EQ(run({name(0), name(1), "--tiled", "--labels", "5%%/%.seg"}).exit_code, 0);
+  ASSERT_EQ(run({name(0), name(1), "--tiled", "--labels", "5%%/%.seg", "--report", "5%%/report.json"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(path("5%/report.json")));
   EXPECT_EQ(labels("5%/tile_1.seg").size(), faces_[1]);
 }
 

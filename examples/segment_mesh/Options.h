@@ -100,7 +100,9 @@ struct Options : Choices {
   bool has_several_meshes() const { return meshes.size() > 1 || !list.empty(); }
   /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own.
   std::string journal() const {
-    return has_several_meshes() && !has_placeholder(files.report) ? files.report : std::string();
+    std::string path = has_several_meshes() && !has_placeholder(files.report) ? files.report : std::string();
+    for (std::size_t at = 0; (at = path.find("%%", at)) != std::string::npos; ++at) path.erase(at, 1);
+    return path;
   }
 };
 

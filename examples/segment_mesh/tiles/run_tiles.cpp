@@ -211,10 +211,13 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
   return success;
 }
 
+/// The path of the report of all tiles; empty if none is asked for.
+std::string path_of_report(const Options& options) { return path_for("", options.files.report); }
+
 /// Writes the report and tells of what is odd or failed.
 Exit_code tell(const Json& report, const Options& options) {
-  if (!options.files.report.empty()) {
-    mesh_files::Output_file file(options.files.report);
+  if (const std::string path = path_of_report(options); !path.empty()) {
+    mesh_files::Output_file file(path);
     file.write(Tile_steps::in_words(report) + "\n");
     file.commit();
   }
@@ -238,8 +241,8 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
                                "it finds what other steps have left in a folder: give --tile-folder, too");
   const Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
-  check_outputs(tiles, options.files.report, steps, folder.path());
-  if (options.tile_step.empty()) check_folders(tiles, options.files.report);
+  check_outputs(tiles, path_of_report(options), steps, folder.path());
+  if (options.tile_step.empty()) check_folders(tiles, path_of_report(options));
   folder.claim(steps.parameters(), steps.files());
   survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
   if (!options.tile_step.empty()) {
