@@ -268,7 +268,8 @@ TEST_F(Tiles, OfWhichOneCannotBeReadAreToldByTheStepThatReports) {
 
 TEST_F(Tiles, RefuseOutputsThatCannotBeWrittenBeforeTheWork) {
   expect_failure(5, "there is no such folder", command({"--tile-folder", "work", "--report", "none/report.json"}));
-  expect_failure(5, "there is no such folder", {name(0), name(1), "--tiled", "--tile-folder", "work", "--labels", "%/a.seg"});
+  expect_failure(5, "there is no such folder",
+                 {name(0), name(1), "--tiled", "--tile-folder", "work", "--labels", "%/a.seg"});
   fs::create_directory(path("tile_2"));
   write("tile_2/mine", "");
   expect_failure(5, "the folder is not empty", command({"--tile-folder", "work", "--split", "%"}));
@@ -792,7 +793,8 @@ TEST_F(Tiles, LeaveFilesOfOthersAlone) {
   expect_failure(1, "is what a step leaves", command({"--tile-folder", "work", "--report", "work/report"}));
   fs::rename(path(name(0)), path("0.off"));
   fs::rename(path(name(1)), path("1.off"));
-  expect_failure(1, "is what a step leaves", {"0.off", "1.off", "--tiled", "--tile-folder", ".", "--labels", "labels_%"});
+  expect_failure(1, "is what a step leaves",
+                 {"0.off", "1.off", "--tiled", "--tile-folder", ".", "--labels", "labels_%"});
 }
 
 TEST_F(Tiles, MayHaveOutputsInFoldersWithPercentSigns) {

@@ -56,7 +56,7 @@ def run_step(command: list[str], step: str, tile: int | None) -> None:
 
 
 def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles: list[str], request: list[str]) -> None:
-    """Remove what steps have left for tiles that have changed since, or, but for the first steps, for another request."""
+    """Remove what later steps have left for other options or folders, and all steps for tiles that have changed."""
     surveys = [work / f"survey_{tile}" for tile in range(len(tiles))]
     is_old = False
     for survey, tile in zip(surveys, tiles):

@@ -131,8 +131,7 @@ inline void check_paths(const std::vector<Task>& tasks, const std::string& journ
   std::set<std::string> taken;
   const auto take = [&](const std::string& path) {
     std::error_code error;  // of pipes, which have names that lead nowhere
-    const std::filesystem::path canonical =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
     return taken.insert(error ? path : canonical.string()).second;
   };
   for (const Task& task : tasks)
