@@ -58,9 +58,13 @@ Exit_code run_one(const Task& task, const Options& options) {
   }
   const std::string percentage = remark_on_percentage(options.files, task.mesh);
   if (!options.is_quiet && !percentage.empty()) say(percentage);
+  Journal journal(options.journal(), options.resumes);
   const Json report = run(task, options, "");
+  journal.write(report);
   const Exit_code code = has_unsound_shape(report) ? unsound_shape : success;
-  if (options.is_quiet || writes_to_standard_output(task.files)) return code;
+  if (options.is_quiet || writes_to_standard_output(task.files) ||
+      mesh_files::open_file_of(options.journal()) == STDOUT_FILENO)
+    return code;
   list(report["segments"]);
   if (!options.segments) offer_other_levels(report);
   return code;

@@ -302,6 +302,9 @@ TEST(Mesh_dialects, VolumesAndCurvedFacesOfGmshAndMeditAreRemarkedOn) {
   const std::string medit =
       "MeshVersionFormatted 1 Dimension 3 Vertices 4 0 0 0 1 1 0 0 1 0 1 0 1 0 0 .5 1 Tetrahedra 1 1 2 3 4 1";
   EXPECT_EQ(remark(medit + " Triangles 1 1 2 3 0 End"), "passed over 1 element of volume");
+  std::string on_one_line = "MeshVersionFormatted 1 Dimension 3 Vertices 60";
+  for (int i = 0; i < 60; ++i) on_one_line += " " + std::to_string(i) + " 0 " + std::to_string(i % 2) + " 0";
+  EXPECT_EQ(mesh_files::mesh_of_content("t.mesh", on_one_line + " Triangles 1 1 2 3 0 End").points.size(), 60U);
   expect_refusal("t.mesh", medit + " End", "1 element of volume and no surface");
   expect_refusal("t.msh", begin + "1\n1 4 2 0 1 1 2 3 4\n$EndElements\n", "1 element of volume and no surface");
 }

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,38 @@ TEST(Mesh_outputs, AnStlTextHasASolidForEachSegmentWithTheExactPoints) {
   EXPECT_EQ(again.points.size(), 4U);
   for (const Point& p : again.points)
     EXPECT_NE(std::find(soup.points.begin(), soup.points.end(), p), soup.points.end());
+  std::filesystem::remove(path);
+}
+
+TEST(Mesh_outputs, ShapesFarAwayAreKeptByGltf) {
+  EXPECT_EQ(mesh_files::origin_for_floats({-1, 2, 3}, {1, 4, 250}), (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(mesh_files::origin_for_floats({0, 0, 0}, {0, 0, 0}), (std::array<double, 3>{0, 0, 0}));
+  Polygon_soup soup;
+  soup.points = {{500000, 5400000, 0}, {500000.125, 5400000, 0}, {500000, 5400000.125, 0.125}};
+  soup.corners = {0, 1, 2};
+  soup.end_face();
+  const std::vector<std::size_t> labels = {0};
+  const std::map<std::size_t, mesh_files::Color> colors = {{0, {1, 2, 3}}};
+  const std::string path = temporary_path(".glb");
+  mesh_files::Output_file file(path);
+  mesh_files::write_glb(file, {soup, labels, colors});
+  file.commit();
+  const std::string content = mesh_files::read_content(path);
+  const auto value_of = [&](const std::string& name) {
+    const std::size_t begin = content.find("\"" + name + "\":[") + name.size() + 4;
+    return content.substr(begin, content.find(']', begin) - begin);
+  };
+  std::array<double, 3> middle;
+  std::istringstream translation(value_of("translation"));
+  char comma = 0;
+  translation >> middle[0] >> comma >> middle[1] >> comma >> middle[2];
+  std::istringstream most(value_of("max"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    double largest = 0;
+    most >> largest >> comma;
+    const double expected = std::array{500000.125, 5400000.125, 0.125}[i];
+    EXPECT_NEAR(middle[i] + largest, expected, 1e-7) << i;
+  }
   std::filesystem::remove(path);
 }
 

@@ -135,6 +135,9 @@ TEST_F(Segment_mesh_tool, AnOutputFormatThatNothingTakesIsRefused) {
                  {"strip.off", "-o", "o.ply", "--output-format", "stl"});
   expect_failure(1, "--output-format: parts of --split are no OBJ",
                  {"strip.off", "--split", "p", "--output-format", "obj"});
+  for (const char* output : {"o", "/dev/stdout"})
+    expect_failure(1, "--output-format: OBJ files need others beside them",
+                   {"strip.off", "-o", output, "--output-format", "obj"});
   for (const auto& [output, format] : {std::pair<std::string, std::string>("o.stl", "stl-text"), {"o", "vtp"}})
     EXPECT_EQ(run({"strip.off", "-o", output, "--output-format", format}).exit_code, 0) << output;
 }

@@ -973,6 +973,58 @@ TEST_F(Segment_mesh_tool, ResumingGoesOnAfterTheLastWholeLineOfTheReport) {
   EXPECT_EQ(meshes, (std::vector<std::string>{"z.off", "a.off", "b.off"}));
 }
 
+TEST_F(Segment_mesh_tool, ResumingWithOneMeshGoesOnWithTheReport) {
+  write("a.off", strip(3));
+  write("b.off", strip(3));
+  ASSERT_EQ(run({"a.off", "b.off", "--labels", "%.seg", "--report", "all.jsonl", "--resume"}).exit_code, 0);
+  write("c.off", strip(3));
+  for (int i = 0; i < 2; ++i)
+    ASSERT_EQ(run({"c.off", "--labels", "%.seg", "--report", "all.jsonl", "--resume"}).exit_code, 0);
+  EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), 3U);
+}
+
+TEST_F(Segment_mesh_tool, LinksToOneMeshAreMeshesOfTheirOwn) {
+  write("a.off", strip(3));
+  std::filesystem::create_symlink("a.off", path("b.off"));
+  ASSERT_EQ(run({"a.off", "b.off", "--labels", "%.seg"}).exit_code, 0);
+  EXPECT_EQ(labels("b.seg").size(), 6U);
+  expect_failure(1, "b.off is an input or another output", {"a.off", "--labels", "b.off"});
+}
+
+TEST_F(Segment_mesh_tool, OutputsOverwriteNoInputOfAnyKind) {
+  write("a.off", strip(3));
+  write("seeds.txt", "0\n5\n");
+  write("walls.txt", "0 1\n");
+  write("list.txt", "a.off\n");
+  write("page.html", "");
+  expect_failure(1, "seeds.txt is an input", {"a.off", "--seeds-file", "seeds.txt", "--labels", "seeds.txt"});
+  expect_failure(1, "walls.txt is an input", {"a.off", "--constraints", "walls.txt", "--labels", "./walls.txt"});
+  expect_failure(1, "list.txt is an input", {"--list", "list.txt", "--labels", "%.seg", "--report", "list.txt"});
+  expect_failure(1, "page.html is an input", {"a.off", "--page", "page.html", "--html", "page.html"});
+}
+
+TEST_F(Segment_mesh_tool, NamesThatAreNoUtf8AreReported) {
+  write("caf\xe9.off", strip(3));
+  const Result result = run({"caf\xe9.off", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(content_of(path("r.json")))["mesh"], "caf\xef\xbf\xbd.off");
+}
+
+TEST_F(Segment_mesh_tool, OptionsWithNothingAreRefused) {
+  write("a.off", strip(3));
+  for (const char* option : {"--labels", "--seeds-file", "--constraints", "--split", "--report", "--list"})
+    expect_failure(1, std::string(option) + ": nothing is given to it", {"a.off", option, ""});
+  expect_failure(1, "nothing is given to it", {""});
+}
+
+TEST_F(Segment_mesh_tool, ClosedPartsMayHaveNoFaceOfTheFile) {
+  // Two triangles on the two sides of a corner that a face has twice: two parts, of which the first speaks for the face.
+  write("bow.off", "OFF\n7 2 0\n0 0 0\n1 0 0\n1 1 0\n-1 0 0\n-1 -1 0\n2 0 0\n2 1 0\n6 0 1 2 0 3 4\n3 1 5 2\n");
+  const Result result = run({"bow.off", "--cap-parts", "--output", "bow.3mf", "--split", "parts", "--labels", "l.seg"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(labels("l.seg").size(), 2U);
+}
+
 TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
   write("a.off", strip(3));
   write("b.off", strip(3));

@@ -27,8 +27,25 @@ inline double linear_light(std::uint8_t channel) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
+/// From where the points of a mesh are stored in single precision: the origin, unless the mesh is so far away, as maps are,
+/// that its shape would be lost. Then it is the middle of the box around it, in single precision, too.
+/// \param least, most the corners of that box
+inline std::array<double, 3> origin_for_floats(const std::array<double, 3>& least, const std::array<double, 3>& most) {
+  constexpr double far = 256;  // boxes: 16 bits are left for the coordinates within it
+  double extent = 0, distance = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    extent = std::max(extent, most[i] - least[i]);
+    distance = std::max({distance, std::abs(least[i]), std::abs(most[i])});
+  }
+  std::array<double, 3> origin = {0, 0, 0};
+  if (!(distance > far * extent)) return origin;
+  for (std::size_t i = 0; i < 3; ++i) origin[i] = double(static_cast<float>(least[i] / 2 + most[i] / 2));
+  return origin;
+}
+
 /// Writes a binary glTF 2.0 file: a mesh with a primitive and a material `segment_<label>` for each label, with "label"
-/// among the extras of the primitive. All share the points, which are single precision; polygons are cut into triangles.
+/// among the extras of the primitive. All share the points, which are single precision, from `origin_for_floats()`, to where
+/// the node moves them; polygons are cut into triangles.
 inline void write_glb(Output& file, const Segmented_soup& mesh) {
   const Small_faces triangles = small_faces(mesh, 3);
   const auto& points = triangles.soup.points;
@@ -36,15 +53,22 @@ inline void write_glb(Output& file, const Segmented_soup& mesh) {
   const std::size_t size_of_points = 12 * points.size(), size_of_corners = 4 * triangles.soup.corners.size(),
                     size = size_of_points + size_of_corners;
 
-  std::array<float, 3> least, most;
-  least.fill(std::numeric_limits<float>::max());
-  most.fill(std::numeric_limits<float>::lowest());
+  std::array<double, 3> lowest, highest;
+  lowest.fill(std::numeric_limits<double>::max());
+  highest.fill(std::numeric_limits<double>::lowest());
   for (const auto& p : points)
     for (std::size_t i = 0; i < 3; ++i) {
-      const float x = float_of(p[static_cast<int>(i)], file.path());
-      least[i] = std::min(least[i], x);
-      most[i] = std::max(most[i], x);
+      const double x = p[static_cast<int>(i)];
+      float_of(x, file.path());
+      lowest[i] = std::min(lowest[i], x);
+      highest[i] = std::max(highest[i], x);
     }
+  const std::array<double, 3> origin = origin_for_floats(lowest, highest);
+  std::array<float, 3> least, most;
+  for (std::size_t i = 0; i < 3; ++i) {
+    least[i] = static_cast<float>(lowest[i] - origin[i]);
+    most[i] = static_cast<float>(highest[i] - origin[i]);
+  }
 
   std::string json;
   Buffer text([&](std::string_view bytes) { json += bytes; });
@@ -60,7 +84,12 @@ inline void write_glb(Output& file, const Segmented_soup& mesh) {
   };
   const auto comma = [&](std::size_t i) { text << (i > 0 ? "," : ""); };
   text << R"({"asset":{"version":"2.0","generator":"RW_segmentation"},"scene":0,"scenes":[{"nodes":[0]}],)"
-       << R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[)";
+       << R"("nodes":[{"mesh":0)";
+  if (origin != std::array<double, 3>{0, 0, 0}) {
+    text << R"(,"translation":)";
+    list(origin);
+  }
+  text << R"(}],"meshes":[{"primitives":[)";
   std::size_t number = 0;
   for (const auto& [label, faces] : segments) {
     comma(number);
@@ -110,7 +139,7 @@ inline void write_glb(Output& file, const Segmented_soup& mesh) {
   out.binary(static_cast<std::uint32_t>(size));
   out.binary(binary_chunk);
   for (const auto& p : points)
-    for (int i = 0; i < 3; ++i) out.binary(static_cast<float>(p[i]));
+    for (std::size_t i = 0; i < 3; ++i) out.binary(static_cast<float>(p[static_cast<int>(i)] - origin[i]));
   for (const auto& [label, faces] : segments)
     for (const std::size_t f : faces)
       for (const auto corner : triangles.soup.face(f)) out.binary(static_cast<std::uint32_t>(corner));

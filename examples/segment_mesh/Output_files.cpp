@@ -96,7 +96,7 @@ void Output_files::write_cad_files(const Cad_shape& shape, const std::string& na
 }
 
 void Output_files::commit(const Json& report) {
-  if (!files_.report.empty()) file(files_.report).write(report.dump() + "\n");
+  if (!files_.report.empty()) file(files_.report).write(line_of(report));
   for (mesh_files::Output_file& file : open_) file.flush();
   const Committing guard;
   for (mesh_files::Output_file& file : open_) file.commit();

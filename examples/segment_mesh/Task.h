@@ -125,17 +125,23 @@ inline std::vector<std::string> lines_of(const std::string& path) {
   return result;
 }
 
-/// Refuses paths of which one would overwrite a mesh or another output.
+/// Refuses paths of which one would overwrite an input or another output. Links to one mesh are meshes of their own.
 /// \param journal the report of all meshes, if there is one
-inline void check_paths(const std::vector<Task>& tasks, const std::string& journal) {
-  std::set<std::string> taken;
+inline void check_paths(const std::vector<Task>& tasks, const std::string& journal, const Options& options) {
+  std::set<std::string> meshes, taken;
   const auto take = [&](const std::string& path) {
     std::error_code error;  // of pipes, which have names that lead nowhere
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
     return taken.insert(error ? path : canonical.string()).second;
   };
-  for (const Task& task : tasks)
-    if (!take(task.mesh)) throw CLI::ValidationError("MESH", task.mesh + " is given twice");
+  for (const Task& task : tasks) {
+    if (!meshes.insert(std::filesystem::absolute(task.mesh).lexically_normal().string()).second)
+      throw CLI::ValidationError("MESH", task.mesh + " is given twice");
+    for (const std::string& input : {task.mesh, task.files.seeds, task.files.constraints})
+      if (!input.empty()) take(input);
+  }
+  for (const std::string& input : {options.list, options.page})
+    if (!input.empty() && input != mesh_files::standard_input) take(input);
   if (!journal.empty() && !take(journal))
     throw CLI::ValidationError("--report", journal + " is an input or another output");
   for (const Task& task : tasks) {
@@ -171,16 +177,14 @@ inline std::vector<Task> tasks_of(const Options& options) {
   if (meshes.empty() && options.list.empty()) throw CLI::RequiredError("a mesh");
 
   Files patterns = options.files;
-  if (options.has_several_meshes()) {
-    if (!options.journal().empty()) patterns.report.clear();
-    check_patterns(patterns);
-  }
+  if (!options.journal().empty()) patterns.report.clear();
+  if (options.has_several_meshes()) check_patterns(patterns);
   if (options.resumes && written_files(patterns).empty() && patterns.split.empty())
     throw CLI::ValidationError("--resume", "no file tells which meshes are done: give an output for each mesh");
   std::vector<Task> tasks;
   tasks.reserve(meshes.size());
   for (const std::string& mesh : meshes) tasks.push_back({mesh, files_for(mesh, patterns)});
-  check_paths(tasks, options.journal());
+  check_paths(tasks, options.journal(), options);
   return tasks;
 }
 

@@ -189,6 +189,11 @@ inline void check_combinations(const Options& options) {
     throw CLI::ValidationError("--output-format", "the name of each --output tells its format: leave it out");
   if (!files.split.empty() && options.output_format == Output_format::obj)
     throw CLI::ValidationError("--output-format", "parts of --split are no OBJ files, which need others beside them");
+  if (has_output([](const std::string& path, Output_format format) {
+        return format == Output_format::obj && tells_no_format(path);
+      }))
+    throw CLI::ValidationError("--output-format",
+                               "OBJ files need others beside them: give --output a name that ends with .obj");
 }
 
 /// The seeds of the command line, then those of a file if there is one.

@@ -346,6 +346,13 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->group("Limits");
 
   app.add_flag("-q,--quiet", options.is_quiet, "Print nothing but errors")->group("Output");
+
+  // A variable of the shell that is not set would otherwise leave an option out without a word.
+  const auto refuse_nothing = [](const std::string& text) {
+    return text.empty() ? std::string("nothing is given to it") : std::string();
+  };
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
+    if (option->get_items_expected_max() > 0) option->check(refuse_nothing);
 }
 
 }  // namespace segment_mesh

@@ -20,6 +20,11 @@
 
 namespace segment_mesh {
 
+/// JSON as one line. Bytes of names that are no UTF-8 become U+FFFD.
+inline std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// The numbers and the names of what segments are made by. Surfaces have none.
 inline Json parameters_of(const Options& options, const Method& method) {
   Json parameters = Json::object();

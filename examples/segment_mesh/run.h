@@ -26,6 +26,8 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Progress.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -47,6 +49,24 @@ inline std::vector<std::string> remarks_on(const Segmentation& result, bool has_
     remarks.push_back(counted(result.island_faces, "face") + " cut off from the " +
                       (has_seeds ? "seed of their part" : "rest of their fragment") + ", given to the neighbours");
   return remarks;
+}
+
+/// What binary STL files lose of a mesh that is far away, as maps are.
+inline std::vector<std::string> remarks_on_precision(const Options& options, const Mesh& mesh) {
+  constexpr double far = 4096;  // extents, of which rounding is a quarter of a thousandth then
+  const auto& outputs = options.files.outputs;
+  const bool has_floats =
+      (!options.files.split.empty() && options.output_format == Output_format::stl) ||
+      std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
+        return !cad_format_of(path) && format_of_output(path, options) == Output_format::stl;
+      });
+  if (!has_floats) return {};
+  double distance = 0;
+  for (const Point& p : mesh.points())
+    distance = std::max({distance, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+  if (!(distance > far * extent_of(mesh))) return {};
+  return {"the mesh is so far from the origin that its shape suffers in .stl, which is single precision: .ply and "
+          "--output-format stl-text keep it"};
 }
 
 /// Makes and writes the CAD files, if any are asked for.
@@ -139,7 +159,8 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   stages.start("writing");
   const auto faces = faces_in_file_order(soup, input);
   const std::vector<Segment> segments = counted_in_file(all_segments, in_file_order(faces, result.label));
-  files.write(soup, closed ? &*closed : nullptr, faces, result, segments);
+  // Closed parts are those of the mesh: some may have no face of the file, see `counted_in_file()`.
+  files.write(soup, closed ? &*closed : nullptr, faces, result, closed ? all_segments : segments);
   files.write_left_out(left_out);
   files.write_page(task.mesh, input.mesh, walls, result, all_segments.size());
   stages.end();
@@ -149,6 +170,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   if (!cad_report.is_null()) report["cad"] = cad_report;
   files.commit(report);
   if (closed) remark(closed->remarks);
+  remark(remarks_on_precision(options, input.mesh));
   remark(remarks_on_cad_files(cad_report, options.unit.has_value()));
   remark(remarks_on(result, options.has_seeds() || options.is_coarse));
   return report;

@@ -51,7 +51,7 @@ class Journal {
 
   void write(const Json& report) {
     if (!file_) return;
-    const std::string line = report.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string line = line_of(report);
     if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) fail();
   }
 

@@ -93,6 +93,29 @@ def parser() -> argparse.ArgumentParser:
     return options
 
 
+def wrong_use_of(options: argparse.Namespace) -> str | None:
+    """Tell what does not go together; None if all does."""
+    if options.engineering:
+        for name, value in (("--seed", options.seed), ("--difference", options.difference)):
+            if value:
+                return f"{name}: surfaces are found without it, leave out --engineering or {name}"
+    if options.seed and options.coarse:
+        return "--seed: --coarse places its seeds by itself, leave one of the two out"
+    if options.segments is not None and any("=" in text for text in options.seed):
+        return "--seed: labels have no meaning where fragments are merged, give faces alone or leave out --segments"
+    if options.refine and options.output is None:
+        return "--refine: nothing would show it, give --output, too"
+    taken = {options.mesh.resolve()}
+    for name in ("output", "labels", "report"):
+        path = getattr(options, name)
+        if path is None:
+            continue
+        if path.resolve() in taken:
+            return f"--{name}: {path} is the mesh or another output"
+        taken.add(path.resolve())
+    return None
+
+
 def seeds_of(texts: Sequence[str]) -> list[tuple[int, int]]:
     """Read FACE or FACE=LABEL; seeds without a label get the lowest ones that are not in use."""
     seeds: list[tuple[int, int | None]] = []
@@ -170,7 +193,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         0, or what the tool segment_mesh returns for the same error.
     """
     try:
-        options = parser().parse_args(arguments)
+        known = parser()
+        options = known.parse_args(arguments)
+        wrong = wrong_use_of(options)
+        if wrong is not None:
+            known.error(wrong)
     except SystemExit as ended:
         return WRONG_USAGE if ended.code else SUCCESS
     try:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Union
 
+import numpy as np
+
 # False or None: nobody is told. True: a bar of tqdm's. A function is called with the fraction done, from 0 to 1, and cancels
 # the call by returning False.
 Progress = Union[bool, Callable[[float], object], None]
@@ -18,7 +20,13 @@ def reporting(progress: Progress, title: str) -> Iterator[Callable[[float], obje
     if progress is None or progress is False:
         yield None
     elif progress is not True:
-        yield progress
+        function = progress
+
+        def tell(fraction: float) -> bool:
+            answer = function(fraction)
+            return bool(answer) if isinstance(answer, np.bool_) else answer is not False
+
+        yield tell
     else:
         try:
             from tqdm.auto import tqdm

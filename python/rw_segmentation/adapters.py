@@ -49,7 +49,10 @@ def to_trimesh(vertices: ArrayLike, faces: Faces, labels: ArrayLike | None = Non
     mesh = trimesh.Trimesh(vertices_of(vertices), triangles, process=False)
     if labels is not None:
         known = integers_of(labels, "labels")
-        mesh.face_attributes["segment"] = known
+        # trimesh writes attributes to PLY files in their own type, and PLY has no integers of 64 bits: VTK ends the program.
+        limits = np.iinfo(np.int32)
+        is_small = known.size == 0 or (int(known.min()) >= limits.min and int(known.max()) <= limits.max)
+        mesh.face_attributes["segment"] = known.astype(np.int32) if is_small else known
         colors = face_colors(vertices, triangles, known)
         mesh.visual = trimesh.visual.ColorVisuals(mesh, face_colors=colors)
     return mesh

@@ -31,6 +31,17 @@ def test_trimesh_and_back(elephant: Mesh) -> None:
     assert np.array_equal(back.visual.face_colors[:, :3], rw.face_colors(*elephant, labels))
 
 
+def test_others_read_what_trimesh_writes(elephant: Mesh, tmp_path: Path) -> None:
+    labels = rw.segment(*elephant)
+    path = tmp_path / "elephant.ply"
+    rw.to_trimesh(*elephant, labels).export(path)
+    header = path.read_bytes().split(b"end_header")[0]
+    assert b"property int segment" in header  # PLY has no int64, at which VTK ends the program
+    assert pyvista.read(path).n_cells == elephant.number_of_faces
+    large = rw.to_trimesh(*elephant, labels + 2**40)
+    assert np.array_equal(large.face_attributes["segment"], labels + 2**40)
+
+
 def test_only_triangles_go_to_trimesh(cube: Mesh) -> None:
     with pytest.raises(ValueError, match="trimesh takes triangles alone"):
         rw.to_trimesh(*cube)

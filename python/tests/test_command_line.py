@@ -69,6 +69,13 @@ def test_smooth_boundaries_are_cut_into_the_mesh_that_is_written(file: Path, ele
     [
         ([], 1, "required"),
         (["{mesh}", "--paper", "--coarse"], 1, "not allowed with"),
+        (["{mesh}", "--engineering", "--seed", "3"], 1, "surfaces are found without it"),
+        (["{mesh}", "--engineering", "--difference", "dihedral"], 1, "surfaces are found without it"),
+        (["{mesh}", "--coarse", "--seed", "3"], 1, "--coarse places its seeds by itself"),
+        (["{mesh}", "--segments", "3", "--seed", "3=7"], 1, "labels have no meaning"),
+        (["{mesh}", "--refine"], 1, "nothing would show it"),
+        (["{mesh}", "--output", "{folder}/../{folder.name}/elephant.off"], 1, "is the mesh or another output"),
+        (["{mesh}", "--labels", "{folder}/a", "--report", "{folder}/a"], 1, "is the mesh or another output"),
         (["{mesh}.none"], 2, "there is no such file"),
         (["{folder}/broken.off"], 2, "broken.off"),
         (["{mesh}", "--segments", "100000"], 3, "the number of segments is 100000"),

@@ -82,6 +82,12 @@ def test_progress_rises_to_1_at_most_and_false_cancels(name: str, small: Mesh) -
     assert len(asked) == 1
 
 
+def test_false_of_numpy_cancels_and_other_answers_do_not(small: Mesh) -> None:
+    with pytest.raises(rw.Cancelled):
+        rw.segment(*small, progress=lambda fraction: np.float64(fraction) < 0)
+    assert len(rw.segment(*small, progress=lambda _: 0)) == small.number_of_faces
+
+
 def test_errors_of_the_progress_function_go_through(large: Mesh) -> None:
     def fail(_: float) -> None:
         raise LookupError("the window is closed")

@@ -61,9 +61,6 @@ class Tile_steps {
   Tile_steps(const Tile_steps&) = delete;
   Tile_steps& operator=(const Tile_steps&) = delete;
 
-  /// Bytes of names that are not UTF-8 are replaced.
-  static std::string in_words(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
   /// In the order in which they are done.
   const std::vector<Tile_step>& all() const { return steps_; }
 
@@ -127,7 +124,7 @@ class Tile_steps {
                        {"version", version()}};
     parameters.update(options_.is_engineering ? surfaces_.parameters() : walk_.parameters());
     for (const Task& task : tasks_) parameters["tiles"].push_back(task.mesh);
-    return in_words(parameters);
+    return line_of(parameters);
   }
 
   /// The tiles that could not be read, each with the reason.
@@ -393,7 +390,7 @@ class Tile_steps {
     else
       walk_.complete(report);
     mesh_files::Output_file file(folder_.path("report"));
-    file.write(in_words(report) + "\n");
+    file.write(line_of(report));
     file.commit();
   }
 

@@ -218,7 +218,7 @@ std::string path_of_report(const Options& options) { return path_for("", options
 Exit_code tell(const Json& report, const Options& options) {
   if (const std::string path = path_of_report(options); !path.empty()) {
     mesh_files::Output_file file(path);
-    file.write(Tile_steps::in_words(report) + "\n");
+    file.write(line_of(report));
     file.commit();
   }
   if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
