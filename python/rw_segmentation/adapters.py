@@ -86,7 +86,7 @@ def to_meshio(mesh: meshio.Mesh, labels: ArrayLike, name: str = "segment") -> me
     """Put labels into ``cell_data[name]`` of a copy of the mesh that they were made of; other cells get -1."""
     import meshio
 
-    known = integers_of(labels, "labels")
+    known = integers_of(labels, "labels").astype(np.int64, copy=False)
     columns: list[NDArray[Any]] = []
     begin = 0
     for block in mesh.cells:
@@ -99,7 +99,15 @@ def to_meshio(mesh: meshio.Mesh, labels: ArrayLike, name: str = "segment") -> me
     if begin != len(known):
         raise ValueError(f"there are {len(known)} labels, but the mesh has {begin} faces")
     return meshio.Mesh(
-        mesh.points, mesh.cells, point_data=dict(mesh.point_data), cell_data={**mesh.cell_data, name: columns}
+        mesh.points,
+        mesh.cells,
+        point_data=dict(mesh.point_data),
+        cell_data={**mesh.cell_data, name: columns},
+        field_data=dict(mesh.field_data),  # such as the names of physical groups
+        point_sets=dict(mesh.point_sets),
+        cell_sets=dict(mesh.cell_sets),
+        gmsh_periodic=mesh.gmsh_periodic,
+        info=mesh.info,
     )
 
 

@@ -59,6 +59,12 @@ def test_meshio_and_back(cube: Mesh) -> None:
         labels[:2].tolist(),
         labels[2:].tolist(),
     ]
+    mesh.field_data["part"] = np.array([1, 2])
+    mesh.cell_sets["first"] = [np.array([0]), np.array([0]), np.array([], dtype=int)]
+    again = rw.to_meshio(mesh, labels.astype(np.uint32))
+    assert again.cell_data["segment"][0].tolist() == [-1]
+    assert again.field_data.keys() == {"part"}
+    assert again.cell_sets.keys() == {"first"}
     with pytest.raises(ValueError, match="no triangles, quads or polygons, but cells of the types: line"):
         rw.from_meshio(meshio.Mesh(cube.vertices, cells[:1]))
     with pytest.raises(ValueError, match="there are 6 labels, but the mesh has 7 faces"):
