@@ -46,7 +46,8 @@ class Numbers {
   std::uint64_t count_with_room(std::size_t size, std::uint64_t numbers, const std::string& items) {
     const std::uint64_t value = count(size, "a count");
     // A word takes two bytes, with the blank behind it.
-    const std::size_t least = is_binary_ ? 4 : 2, room = is_binary_ ? bytes_.size() : text_->rest_of_line().size() + text_->rest().size();
+    const std::size_t least = is_binary_ ? 4 : 2,
+                      room = is_binary_ ? bytes_.size() : text_->rest_of_line().size() + text_->rest().size();
     if (value > (room + 2) / (least * numbers))
       fail("the file promises " + std::to_string(value) + " " + items + ", more than it has room for");
     return value;

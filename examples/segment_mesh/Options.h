@@ -101,7 +101,8 @@ struct Options : Choices {
   /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own. What is
   /// resumed has several, of which one may be left.
   std::string journal() const {
-    std::string path = (has_several_meshes() || resumes) && !has_placeholder(files.report) ? files.report : std::string();
+    std::string path =
+        (has_several_meshes() || resumes) && !has_placeholder(files.report) ? files.report : std::string();
     for (std::size_t at = 0; (at = path.find("%%", at)) != std::string::npos; ++at) path.erase(at, 1);
     return path;
   }

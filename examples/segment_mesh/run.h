@@ -55,18 +55,18 @@ inline std::vector<std::string> remarks_on(const Segmentation& result, bool has_
 inline std::vector<std::string> remarks_on_precision(const Options& options, const Mesh& mesh) {
   constexpr double far = 4096;  // extents, of which rounding is a quarter of a thousandth then
   const auto& outputs = options.files.outputs;
-  const bool has_floats =
-      (!options.files.split.empty() && options.output_format == Output_format::stl) ||
-      std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
-        return !cad_format_of(path) && format_of_output(path, options) == Output_format::stl;
-      });
+  const bool has_floats = (!options.files.split.empty() && options.output_format == Output_format::stl) ||
+                          std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
+                            return !cad_format_of(path) && format_of_output(path, options) == Output_format::stl;
+                          });
   if (!has_floats) return {};
   double distance = 0;
   for (const Point& p : mesh.points())
     distance = std::max({distance, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
   if (!(distance > far * extent_of(mesh))) return {};
-  return {"the mesh is so far from the origin that its shape suffers in .stl, which is single precision: .ply and "
-          "--output-format stl-text keep it"};
+  return {
+      "the mesh is so far from the origin that its shape suffers in .stl, which is single precision: .ply and "
+      "--output-format stl-text keep it"};
 }
 
 /// Makes and writes the CAD files, if any are asked for.
