@@ -9,7 +9,9 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 # Headers alone lie in the same place on every architecture.
 set(package_root ${CMAKE_INSTALL_DATADIR})
 set(any_architecture ARCH_INDEPENDENT)
+set(package_needs_TBB OFF)
 if(RW_SEGMENTATION_COMPILED)
+  set(package_needs_TBB ${RW_SEGMENTATION_COMPILED_WITH_TBB})
   set(package_root ${CMAKE_INSTALL_LIBDIR})
   set(any_architecture "")
   install(TARGETS RW_segmentation_compiled EXPORT RW_segmentationTargets
@@ -45,7 +47,7 @@ install(FILES ${PROJECT_BINARY_DIR}/RW_segmentation.pc DESTINATION ${pkgconfig_d
 if(RW_SEGMENTATION_COMPILED)
   set(parallel_flags "")
   set(parallel_libraries "")
-  if(RW_SEGMENTATION_COMPILED_WITH_TBB)
+  if(package_needs_TBB)
     set(parallel_flags " -DCGAL_LINKED_WITH_TBB")
     set(parallel_libraries " tbb")
   endif()
