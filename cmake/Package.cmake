@@ -59,4 +59,4 @@ endif()
 # A project of its own that builds against the installed library. Not among the documentation, which slim systems leave
 # out.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/RW_segmentation
-  PATTERN "tests*" EXCLUDE PATTERN "run_and_compare.cmake" EXCLUDE)
+  PATTERN "tests*" EXCLUDE PATTERN "run_and_compare.cmake" EXCLUDE PATTERN "node_modules" EXCLUDE)
