@@ -5,10 +5,13 @@
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 add_library(RW_segmentation_compiled ${sources})
 add_library(RW_segmentation::compiled ALIAS RW_segmentation_compiled)
-set_target_properties(RW_segmentation_compiled PROPERTIES EXPORT_NAME compiled POSITION_INDEPENDENT_CODE ON
+set_target_properties(RW_segmentation_compiled PROPERTIES EXPORT_NAME compiled
   # Four files as two, which take about as long as each other: what takes long to parse is parsed once for both.
   UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 2
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+if(NOT DEFINED CMAKE_POSITION_INDEPENDENT_CODE)  # shared libraries may link it
+  set_target_properties(RW_segmentation_compiled PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endif()
 target_link_libraries(RW_segmentation_compiled PUBLIC RW_segmentation)
 target_compile_definitions(RW_segmentation_compiled PUBLIC RW_SEGMENTATION_COMPILED)
 set(RW_SEGMENTATION_COMPILED_OPTIONS "" CACHE STRING "Options of the compiler for RW_segmentation::compiled alone")
@@ -24,7 +27,9 @@ if(NOT RW_SEGMENTATION_COMPILED)
 endif()
 
 find_package(TBB QUIET CONFIG)
-include(CGAL_TBB_support)
+if(TBB_FOUND)
+  include(CGAL_TBB_support)
+endif()
 set(RW_SEGMENTATION_COMPILED_WITH_TBB OFF)
 if(TARGET CGAL::TBB_support)
   set(RW_SEGMENTATION_COMPILED_WITH_TBB ON)
