@@ -5,10 +5,14 @@
 
 #include "Polygon_soup.h"
 
+// Windows has no such headers; files are read there.
+#if __has_include(<sys/mman.h>)
+#define MESH_FILES_MAPS_FILES
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 #ifdef RW_SEGMENTATION_WITH_ZLIB
 #include <zlib.h>
@@ -74,7 +78,9 @@ class File_content {
   File_content& operator=(const File_content&) = delete;
 
   ~File_content() {
+#ifdef MESH_FILES_MAPS_FILES
     if (mapped_) ::munmap(mapped_, size_);
+#endif
   }
 
   std::string_view bytes() const {
@@ -82,7 +88,8 @@ class File_content {
   }
 
  private:
-  void map(const std::string& path) {
+  void map([[maybe_unused]] const std::string& path) {
+#ifdef MESH_FILES_MAPS_FILES
     struct stat status {};
     // Whoever writes to a pipe must not see it opened and closed again.
     if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
@@ -95,6 +102,7 @@ class File_content {
     }
     ::close(file);
     if (mapped_) ::madvise(mapped_, size_, MADV_WILLNEED);
+#endif
   }
 
   void* mapped_ = nullptr;
