@@ -29,6 +29,7 @@ from rw_segmentation.adapters import (
 from rw_segmentation.boundaries import BoundaryCurve, SplitMesh, smooth_boundaries, split_along_boundaries
 from rw_segmentation.colors import segment_colors
 from rw_segmentation.comparison import SegmentationErrors, segmentation_errors
+from rw_segmentation.files import read_mesh, write_segments
 from rw_segmentation.measures import (
     Curvatures,
     InteriorEdges,
@@ -81,6 +82,7 @@ __all__ = [
     "from_trimesh",
     "hierarchy",
     "interior_edges",
+    "read_mesh",
     "refine",
     "segment",
     "segment_colors",
@@ -96,4 +98,5 @@ __all__ = [
     "to_pyvista",
     "to_trimesh",
     "transfer_labels",
+    "write_segments",
 ]

@@ -5,18 +5,20 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import itertools
 import json
 import os
 import sys
-import tempfile
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import rw_segmentation as rw
+from rw_segmentation import files
+from rw_segmentation._arrays import polygons_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,14 +29,26 @@ if TYPE_CHECKING:
 SUCCESS, WRONG_USAGE, UNREADABLE_INPUT, WRONG_ARGUMENT, UNWRITABLE_OUTPUT, CANCELLED = 0, 1, 2, 3, 5, 130
 
 
+MESH_HELP = "OFF, PLY, OBJ, STL, Gmsh, Medit or VTP, packed by gzip or not, or what else trimesh or meshio reads"
+OUTPUT_HELP = "the coloured mesh: .ply, .off, .obj (with .mtl), .stl, .glb, .3mf, .msh, .mesh, .vtp"
+
+
 class UnreadableFileError(Exception):
     """A mesh cannot be read."""
 
 
 def read_mesh(path: Path) -> tuple[NDArray[np.float64], Faces]:
-    """Read a mesh by trimesh, or by meshio where that does not know the file."""
+    """Read a mesh; other formats than the tool's by trimesh, or by meshio where that does not know the file."""
     if not path.is_file():
         raise UnreadableFileError(f"{path}: there is no such file")
+    try:
+        content = files.content_of(path)
+        if files.is_mesh_file(path, content):
+            vertices, faces = files.mesh_in(path, content)
+            require_surface(path, faces)
+            return vertices, faces
+    except (OSError, ValueError) as error:
+        raise UnreadableFileError(str(error)) from error
     reasons = []
     for read in (_read_by_trimesh, _read_by_meshio):
         try:
@@ -44,6 +58,16 @@ def read_mesh(path: Path) -> tuple[NDArray[np.float64], Faces]:
         except Exception as error:  # what readers raise on broken files is theirs to choose
             reasons.append(str(error) or type(error).__name__)
     raise UnreadableFileError(f"{path}: {'; '.join(reasons)}")
+
+
+def require_surface(path: Path, faces: Faces) -> None:
+    """Refuse what leaves nothing to segment."""
+    corners, offsets, degree = polygons_of(faces)
+    begin = np.arange(0, len(corners) + 1, degree) if offsets is None else offsets
+    if len(begin) == 1:
+        raise ValueError(f"{path}: the file has no faces, so that there is no surface to segment")
+    if all(len(set(corners[first:last].tolist())) < 3 for first, last in itertools.pairwise(begin)):
+        raise ValueError(f"{path}: no face has three different corners")
 
 
 def _read_by_meshio(path: Path) -> tuple[NDArray[np.float64], Faces]:
@@ -61,21 +85,13 @@ def _read_by_trimesh(path: Path) -> tuple[NDArray[np.float64], Faces]:
     return rw.from_trimesh(mesh)
 
 
-def write(path: Path, fill: Callable[[Path], object]) -> None:
-    """Write a file by a temporary name, so that a whole one is there or none."""
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".segments-") as folder:
-        temporary = Path(folder) / path.name
-        fill(temporary)
-        temporary.replace(path)
-
-
 def parser() -> argparse.ArgumentParser:
     """Define the command line."""
     options = argparse.ArgumentParser(
         prog="python -m rw_segmentation",
         description="Segments a mesh with random walks: as many segments as the shape suggests, unless told otherwise.",
     )
-    options.add_argument("mesh", type=Path, help="OFF, PLY, OBJ, STL or what else trimesh or meshio reads")
+    options.add_argument("mesh", type=Path, help=MESH_HELP)
     options.add_argument("--version", action="version", version=f"rw-segmentation {rw.__version__}")
     options.add_argument("--segments", type=int, metavar="N", help="how many segments")
     options.add_argument("--seed", action="append", default=[], metavar="FACE[=LABEL]", help="a face; repeatable")
@@ -85,7 +101,7 @@ def parser() -> argparse.ArgumentParser:
     ways.add_argument("--engineering", action="store_true", help="planes, cylinders, cones, ... of a part of a machine")
     options.add_argument("--difference", choices=["dihedral", "concavity", "curvature"], help="of neighbouring faces")
     options.add_argument("--constraints-angle", type=float, metavar="DEGREES", help="sharper edges are walls")
-    options.add_argument("-o", "--output", type=Path, metavar="FILE", help="the coloured mesh: .ply, .off, .obj, .glb")
+    options.add_argument("-o", "--output", type=Path, metavar="FILE", help=OUTPUT_HELP)
     options.add_argument("--refine", action="store_true", help="cut smooth boundaries into the mesh that is written")
     options.add_argument("--labels", type=Path, metavar="FILE", help="one label a line for each face")
     options.add_argument("--report", type=Path, metavar="FILE", help="segments and surfaces as JSON")
@@ -105,11 +121,15 @@ def wrong_use_of(options: argparse.Namespace) -> str | None:
         return "--seed: labels have no meaning where fragments are merged, give faces alone or leave out --segments"
     if options.refine and options.output is None:
         return "--refine: nothing would show it, give --output, too"
+    outputs: list[tuple[str, Path]] = []
+    if options.output is not None:
+        try:
+            outputs = [("output", path) for path in files.paths_of_segments(options.output)]
+        except ValueError as error:
+            return f"--output: {error}"
+    outputs += [(name, getattr(options, name)) for name in ("labels", "report") if getattr(options, name) is not None]
     taken = {options.mesh.resolve()}
-    for name in ("output", "labels", "report"):
-        path = getattr(options, name)
-        if path is None:
-            continue
+    for name, path in outputs:
         if path.resolve() in taken:
             return f"--{name}: {path} is the mesh or another output"
         taken.add(path.resolve())
@@ -155,6 +175,17 @@ def segment(
     return labels, []
 
 
+def mesh_to_write(
+    options: argparse.Namespace, vertices: NDArray[np.float64], faces: Faces, labels: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], Faces, NDArray[np.int64]]:
+    """Cut the boundaries into the mesh, which makes triangles of it, where that is wished."""
+    if not options.refine:
+        return vertices, faces, labels
+    triangles, face_of_triangle = files.triangulated(vertices, faces)
+    split = rw.split_along_boundaries(vertices, triangles, labels[face_of_triangle])
+    return split.vertices, split.faces, split.labels
+
+
 def run(options: argparse.Namespace) -> int:
     """Read, segment, write."""
     for path in (options.output, options.labels, options.report):
@@ -166,18 +197,19 @@ def run(options: argparse.Namespace) -> int:
     report = [{"label": int(name), "faces": int(count)} for name, count in zip(names, counts, strict=True)]
     for entry, surface in zip(report, surfaces, strict=False):
         entry["surface"] = dataclasses.asdict(surface)  # type: ignore[assignment]
+    outputs: list[files.OutputFile] = []
     if options.labels is not None:
-        write(options.labels, lambda path: np.savetxt(path, labels, fmt="%d"))
+        outputs.append((options.labels, lambda file: np.savetxt(file, labels, fmt="%d")))
     if options.report is not None:
         text = json.dumps({"mesh": str(options.mesh), "segments": report}) + "\n"
-        write(options.report, lambda path: path.write_text(text))
+        outputs.append((options.report, lambda file: file.write(text.encode())))
     if options.output is not None:
-        if options.refine:
-            split = rw.split_along_boundaries(vertices, faces, labels)
-            vertices, faces, labels = split.vertices, split.faces, split.labels
-        mesh = rw.to_trimesh(vertices, faces, labels)
-        write(options.output, lambda path: mesh.export(path))
-    if not options.quiet:
+        outputs += files.files_of_segments(options.output, *mesh_to_write(options, vertices, faces, labels))
+    try:
+        files.write_whole(outputs)
+    except ValueError as error:  # the format cannot hold the mesh
+        raise OSError(str(error)) from error
+    if not options.quiet and all(files.open_file_of(path) != 1 for path, _ in outputs):
         print("label     faces")
         for entry in report:
             print(f"{entry['label']:5} {entry['faces']:9}")

@@ -48,7 +48,7 @@ Faces = Union["ArrayLike", Polygons]
 
 
 class MeshRepairWarning(UserWarning):
-    """The faces did not form an oriented surface as they were; the message tells what was done."""
+    """The faces did not form an oriented surface as they were, or a file held more; the message tells what was done."""
 
 
 def vertices_of(vertices: ArrayLike) -> NDArray[np.float32] | NDArray[np.float64]:

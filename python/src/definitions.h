@@ -16,6 +16,7 @@ void define_walk(nanobind::module_& m);
 void define_measures(nanobind::module_& m);
 void define_boundaries(nanobind::module_& m);
 void define_priors(nanobind::module_& m);
+void define_files(nanobind::module_& m);
 
 }  // namespace rw_python
 

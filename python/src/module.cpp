@@ -26,4 +26,5 @@ NB_MODULE(_core, m) {
   rw_python::define_measures(m);
   rw_python::define_boundaries(m);
   rw_python::define_priors(m);
+  rw_python::define_files(m);
 }

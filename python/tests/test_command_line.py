@@ -76,7 +76,11 @@ def test_smooth_boundaries_are_cut_into_the_mesh_that_is_written(file: Path, ele
         (["{mesh}", "--refine"], 1, "nothing would show it"),
         (["{mesh}", "--output", "{folder}/../{folder.name}/elephant.off"], 1, "is the mesh or another output"),
         (["{mesh}", "--labels", "{folder}/a", "--report", "{folder}/a"], 1, "is the mesh or another output"),
+        (["{mesh}", "--output", "{folder}/a.xyz"], 1, "a.xyz is none of .ply, .off, .obj"),
+        (["{mesh}", "--output", "{folder}/a.obj", "--report", "{folder}/a.mtl"], 1, "is the mesh or another output"),
         (["{mesh}.none"], 2, "there is no such file"),
+        (["{folder}/points.off"], 2, "the file has no faces"),
+        (["{folder}/line.off"], 2, "no face has three different corners"),
         (["{folder}/broken.off"], 2, "broken.off"),
         (["{mesh}", "--segments", "100000"], 3, "the number of segments is 100000"),
         (["{mesh}", "--seed", "first"], 3, "first is no seed"),
@@ -87,6 +91,8 @@ def test_errors_have_codes_and_sentences(
     arguments: list[str], code: int, message: str, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file.with_name("broken.off").write_text("OFF\n1 2")
+    file.with_name("points.off").write_text("OFF\n1 0 0\n1 2 3\n")
+    file.with_name("line.off").write_text("OFF\n2 1 0\n1 2 3\n1 2 4\n4 0 1 0 1\n")
     before = set(file.parent.iterdir())
     given = [argument.format(mesh=file, folder=file.parent) for argument in arguments]
     assert main(given) == code
