@@ -105,6 +105,9 @@ TEST(TransferSegments, ABoundaryMovesToTheCreaseOfTheFullMesh) {
   const Conductance<Mesh> conductance(mesh, Dihedral_difference<Mesh>(mesh));
   EXPECT_EQ(transferred(mesh, beside, mesh, conductance, 0), beside.values());
   EXPECT_EQ(transferred(mesh, beside, mesh, conductance, 16), crease.values());
+  constexpr std::size_t beyond_the_mesh = std::numeric_limits<std::size_t>::max();
+  EXPECT_EQ(transferred(mesh, beside, mesh, conductance, beyond_the_mesh),
+            transferred(mesh, beside, mesh, conductance, mesh.number_of_faces()));
 }
 
 TEST(TransferSegments, ABandOfOneFaceTakesInATooth) {

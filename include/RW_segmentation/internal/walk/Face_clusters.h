@@ -78,7 +78,7 @@ inline void add_surroundings(const Dual_graph& graph, std::size_t steps, std::ve
   std::vector<char> is_reached(graph.number_of_faces(), false);
   for (const auto node : nodes) is_reached[node] = true;
   std::size_t next = 0;
-  for (std::size_t step = 0; step < steps; ++step)
+  for (std::size_t step = 0; step < steps && next < nodes.size(); ++step)
     for (const std::size_t end = nodes.size(); next < end; ++next)
       for (const auto& neighbour : graph.neighbours(nodes[next])) {
         if (is_reached[neighbour.face]) continue;
