@@ -43,6 +43,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -403,6 +404,74 @@ TEST(Boundary_representation, TakesPolygons) {
   EXPECT_EQ(result.defect(), "");
   EXPECT_EQ(result.number_of_faces(Surface_type::plane), 5U);
   expect_relative(result.report.volume, 1. / 3, 1e-12);
+}
+
+/// A boundary representation of polygons, each on its own plane.
+Boundary_representation of_polygons(const meshes::Shape& polygons) {
+  const auto mesh = meshes::surface_mesh(polygons);
+  std::vector<std::size_t> ids(mesh.number_of_faces());
+  std::iota(ids.begin(), ids.end(), std::size_t(0));
+  const auto id_map = boost::make_iterator_property_map(ids.begin(), get(boost::face_index, mesh));
+  return boundary_representation(mesh, id_map, std::vector<Analytic_surface>(ids.size()));
+}
+
+TEST(Boundary_representation, TakesPolygonsThatAreNotConvex) {
+  const std::vector<std::array<double, 2>> outline = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  constexpr std::size_t n = 6;
+  for (std::size_t first = 0; first < n; ++first) {
+    SCOPED_TRACE(first);
+    meshes::Shape prism;
+    for (const double z : {0., 1.})
+      for (std::size_t i = 0; i < n; ++i)
+        prism.points.emplace_back(outline[(first + i) % n][0], outline[(first + i) % n][1], z);
+    prism.faces = {{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}};
+    for (std::size_t i = 0; i < n; ++i) prism.faces.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
+    const Boundary_representation result = of_polygons(prism);
+    EXPECT_EQ(result.defect(), "");
+    EXPECT_EQ(result.faces.size(), 8U);
+    expect_relative(result.report.mesh_area, 14, 1e-12);
+    expect_relative(result.report.area, 14, 1e-12);
+  }
+}
+
+TEST(Boundary_representation, TakesPolygonsWithACornerWithinASide) {
+  const Boundary_representation result =
+      of_polygons({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {0, 1, 1}, {1, 0, 1}},
+                   {{3, 2, 1, 0}, {4, 8, 5, 6, 7}, {5, 8, 4, 0, 1}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}});
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.faces.size(), 6U);
+  expect_relative(result.report.volume, 2, 1e-12);
+}
+
+TEST(Boundary_representation, KeepsToTheCornersOfABorder) {
+  for (const std::size_t steps : {1, 2, 3, 10}) {
+    SCOPED_TRACE(steps);
+    meshes::Shape sheet;
+    for (std::size_t j = 0; j <= steps; ++j)
+      for (std::size_t i = 0; i <= steps; ++i) sheet.points.emplace_back(double(i), double(j), 0);
+    for (std::size_t j = 0; j < steps; ++j)
+      for (std::size_t i = 0; i < steps; ++i) {
+        const std::size_t a = j * (steps + 1) + i, b = a + steps + 1;
+        sheet.faces.push_back({a, a + 1, b + 1, b});
+      }
+    const auto mesh = meshes::surface_mesh(sheet);
+    const std::vector<std::size_t> ids(steps * steps, 0);
+    Analytic_surface plane;
+    plane.type = Surface_type::plane;
+    const Boundary_representation result = boundary_representation(
+        mesh, boost::make_iterator_property_map(ids.begin(), get(boost::face_index, mesh)), {plane});
+    EXPECT_EQ(result.defect(), "");
+    EXPECT_EQ(result.faces.size(), 1U);
+    EXPECT_EQ(result.report.edges, 4U);
+    expect_relative(result.report.area, double(steps * steps), 1e-12);
+  }
+}
+
+TEST(Boundary_representation, TakesACircleOfEightChordsForTheCircle) {
+  Boundary_representation shape = represented(solids::box(solids::by_kernel()));
+  shape.report.volume = pi;
+  shape.report.mesh_volume = 2 * std::sqrt(2);
+  EXPECT_EQ(shape.defect(), "");
 }
 
 TEST(Boundary_representation, SaysWhatIsWrongWithItsArguments) {

@@ -113,7 +113,9 @@ struct Boundary_representation {
 inline std::string Boundary_representation::defect() const {
   constexpr double largest_share = 0.1;      // of area or volume; chords of a circle in 8 parts cut off as much
   constexpr double largest_distance = 0.03;  // of the diagonal; likewise
-  const auto differs = [](double a, double b) { return !(std::abs(a - b) <= largest_share * std::abs(b)); };
+  const auto differs = [](double a, double b) {
+    return !(std::abs(a - b) <= largest_share * std::max(std::abs(a), std::abs(b)));
+  };
   if (!report.is_closed) return "it is not closed";
   if (!report.is_valid) return report.error;
   if (differs(report.area, report.mesh_area)) return "its area is not that of the mesh";
@@ -227,7 +229,7 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
 /// does not call valid is made again: within the edges of the mesh, as a B-spline surface, and at last as triangles.
 ///
 /// Each closed component becomes a solid; one that looks inward and lies in another becomes a void in that; components
-/// with a border become shells. Faces of more than three sides are taken as fans of triangles round their first corner.
+/// with a border become shells. Faces of more than three sides are cut into triangles.
 ///
 /// Complexity: the times of Open CASCADE for each face and edge, of which those of a component are put together again as long
 /// as one is refused; and a pass over the triangles of a component for each cut of a patch.

@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_BREP_HALFEDGE_TRIANGLES_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/brep/Polygon_triangles.h>
 
 #include <Eigen/Geometry>
 
@@ -27,7 +28,7 @@ using Point = Eigen::Vector3d;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// A connected component of the mesh as triangles and halfedges, in the coordinates of the shape. Halfedges 3 f, 3 f + 1 and 3 f + 2 go round
-/// triangle f. A face of more than three sides is the fan of triangles round its first corner.
+/// triangle f. A face of more than three sides is cut into triangles, see `Polygon_triangles`.
 class Halfedge_triangles {
  public:
   /// \param scale of the shape beside the mesh
@@ -45,13 +46,17 @@ class Halfedge_triangles {
       }
       return place->second;
     };
+    std::vector<std::vector<std::size_t>> polygons;
     for (const Dual_mesh::Index f : faces) {
-      const auto corners = mesh.corners(f);
-      for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-        corners_.push_back({number_of(corners[0]), number_of(corners[k]), number_of(corners[k + 1])});
-        face_.push_back(f);
-      }
+      polygons.emplace_back();
+      for (const Dual_mesh::Index v : mesh.corners(f)) polygons.back().push_back(number_of(v));
     }
+    Polygon_triangles triangles(points_, polygons);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const auto& corners : triangles.of(polygons[i])) {
+        corners_.push_back(corners);
+        face_.push_back(faces[i]);
+      }
     diagonal_ = box.diagonal().norm();
     middle_ = box.center();
     pair_halfedges();

@@ -5,7 +5,10 @@
 
 #include <RW_segmentation/internal/brep/Halfedge_triangles.h>
 #include <RW_segmentation/internal/brep/Patch.h>
+#include <RW_segmentation/internal/brep/Patch_surface.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -29,7 +32,7 @@ struct Directed_chain {
 };
 
 /// What lies between patches: the topology of the boundary representation. Branch points become vertices, chains between
-/// them edges.
+/// them edges. Corners of the mesh's border are branch points, too: a curve would swing out there.
 class Patch_borders {
  public:
   /// Complexity: linear.
@@ -109,6 +112,34 @@ class Patch_borders {
         for (const std::size_t t : patch.triangles)
           for (const std::size_t v : mesh_.corners(t))
             if (degree[v] > 0 && patch.surface->is_tip(mesh_.point(v))) is_branch_[v] = true;
+    find_corners();
+  }
+
+  /// The halfedge after one on the mesh's border.
+  std::size_t next_of_mesh_border(std::size_t h) const {
+    for (h = mesh_.next(h); mesh_.opposite(h) != none;) h = mesh_.next(mesh_.opposite(h));
+    return h;
+  }
+
+  /// By how much a border turns from one halfedge to the next, in radians.
+  double turn(std::size_t h, std::size_t next) const {
+    const Point a = mesh_.point(mesh_.to(h)) - mesh_.point(mesh_.from(h)),
+                b = mesh_.point(mesh_.to(next)) - mesh_.point(mesh_.from(next));
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+
+  /// Arcs turn, too, but no more than the sides of a pentagon, and by as much at one vertex as at the next.
+  void find_corners() {
+    constexpr double widest_turn_of_arc = full_turn * 75 / 360, least_turn = full_turn * 25 / 360;
+    constexpr double times_those_beside = 3;
+    for (std::size_t h = 0; h < mesh_.number_of_halfedges(); ++h) {
+      if (mesh_.opposite(h) != none) continue;
+      const std::size_t second = next_of_mesh_border(h), third = next_of_mesh_border(second),
+                        fourth = next_of_mesh_border(third);
+      const double before = turn(h, second), here = turn(second, third), after = turn(third, fourth);
+      if (here > widest_turn_of_arc || (here > least_turn && here > times_those_beside * std::max(before, after)))
+        is_branch_[mesh_.to(second)] = true;
+    }
   }
 
   void follow(std::size_t h) {
