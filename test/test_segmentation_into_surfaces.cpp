@@ -461,6 +461,24 @@ TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartWhoseCornersLieOnARoundSurfac
           << sides << " sides, radius at the top " << top_radius;
 }
 
+TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartThatAreSinglePolygons) {
+  for (const std::size_t sides : {5u, 6u, 7u, 8u}) {
+    meshes::Shape prism;
+    std::vector<std::size_t> bottom, top;
+    for (std::size_t i = 0; i < sides; ++i) {
+      const double angle = 2 * solids::half_turn * double(i) / double(sides);
+      for (const double z : {0., 2.}) prism.points.emplace_back(std::cos(angle), std::sin(angle), z);
+      bottom.insert(bottom.begin(), 2 * i);
+      top.push_back(2 * i + 1);
+      const std::size_t next = (i + 1) % sides;
+      prism.faces.push_back({2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
+    }
+    prism.faces.push_back(bottom);
+    prism.faces.push_back(top);
+    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(prism))), sides + 2) << sides << " sides";
+  }
+}
+
 TEST(SegmentationIntoSurfaces, GivesAsManySegmentsAsAskedFor) {
   const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
   for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Surface_segmentation(n))), n);

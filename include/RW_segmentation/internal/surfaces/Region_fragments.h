@@ -25,7 +25,8 @@ namespace RW_segmentation::internal {
 /// Makes fragments of the regions that `Surface_growing` found and of the faces that no surface explains: these form
 /// groups that are fragments themselves, or, where a group is too small to be a face of the solid and continues a
 /// region smoothly, are given to the regions by a random walk from these. Triangles that turn sharply against each
-/// other, as on coarse fillets and holes, are one group where they touch. A group with long creases inside, which end in
+/// other, as on coarse fillets and holes, are one group where they touch; faces of more sides are as flat as the triangles
+/// that they could be cut into, and stay apart. A group with long creases inside, which end in
 /// it, is cut along them: walks from either side share it out.
 ///
 /// What comments tell of other values of a number was measured as in `Surface_growing`.
@@ -98,12 +99,12 @@ class Region_fragments {
     return groups;
   }
 
-  /// Which faces of the remainder continue smoothly into no other face of it.
+  /// Which triangles of the remainder continue smoothly into no other face of it.
   std::vector<char> lone_faces(const std::vector<std::size_t>& region_of_face) const {
     std::vector<char> is_lone;
     for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
       const auto neighbours = mesh_.graph().neighbours(f);
-      is_lone.push_back(region_of_face[f] == none &&
+      is_lone.push_back(region_of_face[f] == none && mesh_.corners(f).size() == 3 &&
                         std::none_of(neighbours.begin(), neighbours.end(), [&](const Dual_graph::Neighbour& n) {
                           return region_of_face[n.face] == none && !mesh_.is_wall(n.edge) && is_smooth(n.edge);
                         }));
