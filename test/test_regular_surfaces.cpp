@@ -194,6 +194,60 @@ TEST(RegularSurfaces, MeetInTheMiddleWhereErrorsAreRounding) {
   EXPECT_EQ(number_of(regular, Regularity::coplanar), 1u);
 }
 
+/// The surfaces of a slender cone round the axis of z, whose apex is far off, and a cylinder above it. Their vertices are noisy.
+Surfaces slender_cone_and_cylinder(double offset, unsigned seed, meshes::Shape& shape) {
+  constexpr std::size_t sides = 40, rows = 12;
+  constexpr double noise = 0.03, height = 20, slope = 0.09;  // 5 degrees
+  std::mt19937 random(seed);
+  std::normal_distribution<double> deviation(0, noise);
+  std::vector<std::size_t> ids;
+  for (const bool is_cone : {true, false}) {
+    const std::size_t first = shape.points.size();
+    for (std::size_t row = 0; row <= rows; ++row)
+      for (std::size_t i = 0; i < sides; ++i) {
+        const double z = height * double(row) / double(rows), radius = is_cone ? 10 - slope * z : 6;
+        const double angle = 2 * solids::half_turn * double(i) / double(sides);
+        shape.points.emplace_back((is_cone ? 0 : offset) + radius * std::cos(angle), radius * std::sin(angle),
+                                  is_cone ? z : z + 30);
+        for (double& x : shape.points.back()) x += deviation(random);
+      }
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = 0; i < sides; ++i) {
+        const std::size_t a = first + row * sides + i, b = first + row * sides + (i + 1) % sides;
+        shape.faces.push_back({a, b, b + sides});
+        shape.faces.push_back({a, b + sides, a + sides});
+        ids.insert(ids.end(), 2, is_cone ? 0 : 1);
+      }
+  }
+  const auto mesh = meshes::surface_mesh(shape);
+  return segment_surfaces(mesh, boost::make_iterator_property_map(ids.begin(), get(boost::face_index, mesh)), 2);
+}
+
+TEST(RegularSurfaces, OfASlenderConeKeepToItsVertices) {
+  constexpr unsigned trials = 10;
+  for (const double offset : {0., 0.2, 1.}) {
+    SCOPED_TRACE(offset);
+    unsigned cones = 0, coaxial = 0;
+    for (unsigned seed = 1; seed <= trials; ++seed) {
+      meshes::Shape shape;
+      const Surfaces surfaces = slender_cone_and_cylinder(offset, seed, shape);
+      if (surfaces[0].type != Surface_type::cone || surfaces[1].type != Surface_type::cylinder) continue;
+      ++cones;
+      const Regular_surfaces regular = regular_surfaces(surfaces);
+      for (const Surface_snap& snap : regular.snaps) coaxial += snap.regularity == Regularity::coaxial;
+      const std::vector<Vector3d> points(shape.points.begin(),
+                                         shape.points.begin() + static_cast<std::ptrdiff_t>(shape.points.size() / 2));
+      EXPECT_LE(root_mean_square_distance(regular.surfaces[0], points),
+                1.1 * root_mean_square_distance(surfaces[0], points));
+    }
+    EXPECT_GE(cones, trials / 2);
+    if (offset > 0)
+      EXPECT_EQ(coaxial, 0U);
+    else
+      EXPECT_GE(coaxial, cones * 8 / 10);
+  }
+}
+
 TEST(RegularSurfaces, OfUnknownErrorsAreLeftAlone) {
   Surfaces surfaces = {plane({0, 0, 0}, {0, 0, 1}), plane({0, 0, 1}, {0.1, 0, 1}), Analytic_surface()};
   for (Analytic_surface& surface : surfaces)

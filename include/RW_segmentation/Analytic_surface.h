@@ -54,6 +54,9 @@ struct Surface_errors {
   double radius = 0;       ///< of the radius
   double tube_radius = 0;  ///< of the torus
   double half_angle = 0;   ///< of the cone, in radians
+  /// Of the place of a cone's axis across itself, where it is known best: a slender cone's apex is known much less.
+  double axis = 0;
+  double axis_height = 0;  ///< where that is, from the apex along the axis: no error, but a length
 };
 
 /// An unbounded plane, sphere, cylinder, cone or torus. A free form has none of the numbers.

@@ -51,8 +51,9 @@ struct Regular_surfaces {
 /// Numbers become one, the mean weighted by their errors as far as these are more than rounding, if all of a group are within
 /// the tolerance of each other and no other one is near: where a chain of small differences adds up to a large one, nothing
 /// is changed. So the result does not depend on the order of the surfaces, and doing it again changes nothing. The most that
-/// errors excuse is one degree, or a hundredth of a radius. Surfaces turn about their `point`. Residuals and errors remain
-/// those of the fits, and free forms what they are. Complexity: quadratic in the number of surfaces.
+/// errors excuse is one degree, or a hundredth of a radius. Surfaces turn about their `point`, cones about where the place of
+/// their axis is known best. Residuals and errors remain those of the fits, and free forms what they are. Complexity:
+/// quadratic in the number of surfaces.
 ///
 /// \param surfaces with their errors, as `segment_surfaces()` finds them
 /// \param tolerance without standard errors, only differences up to the length and the angle are removed

@@ -89,6 +89,21 @@ class Surface_regularities {
   bool has_axis(std::size_t s) const { return has_direction(s) && result_.surfaces[s].type != Surface_type::plane; }
   double turn_error(std::size_t s) const { return result_.surfaces[s].errors.direction; }
 
+  /// Whether the place of an axis is known best elsewhere than at the surface's point, the apex of a cone.
+  bool has_middle(std::size_t s) const {
+    return result_.surfaces[s].type == Surface_type::cone && result_.surfaces[s].errors.axis_height != 0;
+  }
+  /// Where the place of an axis is known best.
+  Vector middle_of_axis(std::size_t s) const {
+    const Analytic_surface& surface = result_.surfaces[s];
+    return has_middle(s) ? Vector(surface.point + surface.errors.axis_height * surface.direction) : surface.point;
+  }
+  /// The error there.
+  double place_error(std::size_t s) const {
+    const Surface_errors& errors = result_.surfaces[s].errors;
+    return has_middle(s) ? errors.axis : errors.point;
+  }
+
   template <class Predicate>
   Numbers surfaces_that(const Predicate& predicate) const {
     Numbers numbers;
@@ -140,8 +155,10 @@ class Surface_regularities {
   /// Turns the surfaces of a direction, each the shorter way.
   void turn(const Direction& d) {
     for (const std::size_t s : d.surfaces) {
+      const Vector middle = middle_of_axis(s);
       Vector& direction = result_.surfaces[s].direction;
       direction = direction.dot(d.vector) < 0 ? Vector(-d.vector) : d.vector;
+      if (has_middle(s)) result_.surfaces[s].point = middle - result_.surfaces[s].errors.axis_height * direction;
     }
   }
 
@@ -231,9 +248,8 @@ class Surface_regularities {
   }
 
   bool are_placed_alike(std::size_t a, std::size_t b, double difference, double distance, double most) const {
-    const auto &p = result_.surfaces[a].errors, &q = result_.surfaces[b].errors;
-    const double error = std::hypot(known(p.point), lever(a, b, distance));
-    return difference <= std::max(tolerance_.length, excused(error, q.point, most));
+    const double error = std::hypot(known(place_error(a)), lever(a, b, distance));
+    return difference <= std::max(tolerance_.length, excused(error, place_error(b), most));
   }
 
   void join_planes() {
@@ -274,13 +290,12 @@ class Surface_regularities {
       }
       const std::vector<Vector> before = feet;
       const auto is_near = [&](const Vector& a, std::size_t i, const Vector& b, std::size_t j) {
-        const double along = n.dot(result_.surfaces[axes[i]].point - result_.surfaces[axes[j]].point);
+        const double along = n.dot(middle_of_axis(axes[i]) - middle_of_axis(axes[j]));
         return are_placed_alike(axes[i], axes[j], (a - b).norm(), std::abs(along),
                                 std::numeric_limits<double>::infinity());
       };
       const auto mean = [&](const Numbers& group) {
-        return mean_of(before, group, exact_length_,
-                       [&](std::size_t i) { return result_.surfaces[axes[i]].errors.point; });
+        return mean_of(before, group, exact_length_, [&](std::size_t i) { return place_error(axes[i]); });
       };
       for (const Numbers& group : join_near_values(feet, is_near, mean))
         for (std::size_t k = 1; k < group.size(); ++k)

@@ -59,6 +59,22 @@ inline double largest_error(const Small_matrix& covariance, Eigen::Index first, 
   return standard_deviation(Principal_axes(block).values()[count - 1]);
 }
 
+/// Sets where a cone's axis is known best, and its error there: not apart from its turn, the apex is known less.
+inline void set_axis_errors(const Small_matrix& covariance, Surface_errors& errors) {
+  constexpr Eigen::Index turn = Cone::shifts;  // the turns that move the axis in the directions of the first two shifts
+  const double turns = covariance(turn, turn) + covariance(turn + 1, turn + 1);
+  errors.axis = std::numeric_limits<double>::infinity();
+  if (!covariance.allFinite() || !(turns > 0)) return;
+  const double height = -(covariance(0, turn) + covariance(1, turn + 1)) / turns;
+  Small_matrix place(2, 2);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    for (Eigen::Index j = 0; j < 2; ++j)
+      place(i, j) = covariance(i, j) + height * (covariance(i, turn + j) + covariance(turn + i, j)) +
+                    height * height * covariance(turn + i, turn + j);
+  errors.axis = largest_error(place, 0, 2);
+  errors.axis_height = height;
+}
+
 /// The errors of the numbers of a surface from their covariance.
 template <class Type>
 Surface_errors surface_errors(const Small_matrix& covariance) {
@@ -68,6 +84,7 @@ Surface_errors surface_errors(const Small_matrix& covariance) {
   int k = Type::shifts + Type::turns;
   std::apply([&](auto&... number) { ((number = standard_deviation(covariance(k, k)), ++k), ...); },
              Type::numbers(errors));
+  if constexpr (std::is_same_v<Type, Cone>) set_axis_errors(covariance, errors);
   return errors;
 }
 

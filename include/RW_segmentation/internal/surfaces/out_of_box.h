@@ -20,6 +20,8 @@ inline Analytic_surface out_of_box(Analytic_surface surface, double unit, const 
   surface.errors.point *= unit;
   surface.errors.radius *= unit;
   surface.errors.tube_radius *= unit;
+  surface.errors.axis *= unit;
+  surface.errors.axis_height *= unit;
   return surface;
 }
 
