@@ -415,6 +415,26 @@ TEST(SegmentationIntoSurfaces, CutsACubeIntoSix) {
   EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(meshes::cube_of_quads()))), 6u);
 }
 
+TEST(SegmentationIntoSurfaces, CutsABoxIntoSixWhereATriangleWithoutAreaLiesOnAnEdge) {
+  const meshes::Shape box = {
+      {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}, {0, 0, 1}, {3, 0, 1}, {3, 2, 1}, {0, 2, 1}, {1, 0, 1}},
+      {{3, 2, 1},
+       {3, 1, 0},
+       {4, 8, 7},
+       {8, 5, 6},
+       {8, 6, 7},
+       {4, 5, 8},
+       {5, 4, 0},
+       {5, 0, 1},
+       {1, 2, 6},
+       {1, 6, 5},
+       {2, 3, 7},
+       {2, 7, 6},
+       {3, 0, 4},
+       {3, 4, 7}}};
+  EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(box))), 6u);
+}
+
 TEST(SegmentationIntoSurfaces, LeavesASphereATorusAndAPlaneWhole) {
   for (const meshes::Shape& shape : {meshes::sphere(3), meshes::torus(2, 0.6, 40, 20), meshes::plane(10)})
     EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(shape))), 1u);
