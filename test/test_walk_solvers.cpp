@@ -8,6 +8,8 @@
 #include <Eigen/CholmodSupport>
 #endif
 
+#include <Eigen/SparseLU>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -46,12 +48,13 @@ template <class Solver>
 class Walk_solver : public testing::Test {};
 
 #ifdef RW_SEGMENTATION_WITH_CHOLMOD
-using Solvers = testing::Types<Star_mesh_elimination, Eigen_walk_solver<>,
-                               Eigen_walk_solver<Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>>,
-                               Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>>;
+using Solvers = testing::Types<
+    Star_mesh_elimination, Eigen_walk_solver<>, Eigen_walk_solver<Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>>,
+    Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>, Eigen_walk_solver<Eigen::SparseLU<Matrix>>>;
 #else
 using Solvers = testing::Types<Star_mesh_elimination, Eigen_walk_solver<>,
-                               Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>>;
+                               Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower>>,
+                               Eigen_walk_solver<Eigen::SparseLU<Matrix>>>;
 #endif
 TYPED_TEST_SUITE(Walk_solver, Solvers);
 
@@ -451,6 +454,19 @@ TEST(MakeSolver, CallsAFunctionObjectForASolverThatHasSettings) {
   internal::Any_walk_solver patient = internal::make_solver(with_iterations(1000));
   EXPECT_THROW(networks::potentials(hasty, network, {0, 40}), std::runtime_error);
   EXPECT_NO_THROW(networks::potentials(patient, network, {0, 40}));
+}
+
+TEST(EigenWalkSolver, GivesTheWholeMatrixToSolversThatReadIt) {
+  std::mt19937 random(17);
+  Network network{triangulated_torus(8), {}};
+  network.conductances = spread_conductances(network.graph.number_of_edges(), 1, random);
+  const std::vector<Index> seeds = random_faces(network.graph, 4, random);
+  Star_mesh_elimination exact;
+  const Potentials expected = networks::potentials(exact, network, seeds);
+  Eigen_walk_solver<Eigen::BiCGSTAB<Matrix>> of_any_matrix;
+  EXPECT_LE((networks::potentials(of_any_matrix, network, seeds) - expected).cwiseAbs().maxCoeff(), 1e-9);
+  Eigen_walk_solver<Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper>> of_both_triangles;
+  EXPECT_LE((networks::potentials(of_both_triangles, network, seeds) - expected).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(EigenWalkSolver, RefusesToAnswerWhereDigitsAreLost) {

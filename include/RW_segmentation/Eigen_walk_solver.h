@@ -26,22 +26,26 @@ namespace RW_segmentation {
 
 namespace internal {
 
-/// Whether one of Eigen's solvers reads the lower triangle of a matrix and no other; those that do not say count as such.
+/// Which triangle of a matrix one of Eigen's solvers reads, as `Eigen::Lower` or `Eigen::Upper`, or both. Solvers for
+/// matrices that need not be symmetric do not say, and read the whole matrix.
 template <class EigenSolver, class = void>
-struct Works_on_lower_triangle : std::true_type {};
+struct Triangles_read : std::integral_constant<int, int(Eigen::Lower) | int(Eigen::Upper)> {};
 template <class EigenSolver>
-struct Works_on_lower_triangle<EigenSolver, std::void_t<decltype(EigenSolver::UpLo)>>
-    : std::bool_constant<int(EigenSolver::UpLo) == int(Eigen::Lower)> {};
+struct Triangles_read<EigenSolver, std::void_t<decltype(EigenSolver::UpLo)>>
+    : std::integral_constant<int, int(EigenSolver::UpLo)> {};
 
 template <class EigenSolver>
-constexpr bool works_on_lower_triangle = Works_on_lower_triangle<EigenSolver>::value;
+constexpr bool reads_lower_triangle = (Triangles_read<EigenSolver>::value & int(Eigen::Lower)) != 0;
+template <class EigenSolver>
+constexpr bool reads_upper_triangle = (Triangles_read<EigenSolver>::value & int(Eigen::Upper)) != 0;
 
 }  // namespace internal
 
-/// Solves the walk with any of Eigen's sparse solvers for symmetric positive definite matrices, a model of `WalkSolver`.
+/// Solves the walk with any of Eigen's sparse solvers, a model of `WalkSolver`.
 ///
 /// The unknowns are the faces that do not absorb and that reach an absorbing face; the matrix is the graph Laplacian
-/// restricted to them, its lower triangle.
+/// restricted to them, symmetric and positive definite. Solvers that read one triangle of it, which must be the lower one, get
+/// that; others, such as `Eigen::SparseLU`, get the whole.
 ///
 /// Subtractions make these solvers lose digits where conductances differ by many orders of magnitude, and neither a
 /// residual nor `info()` tells (see \ref own_policies, "A solver"). So each solve carries one more right
@@ -51,11 +55,11 @@ constexpr bool works_on_lower_triangle = Works_on_lower_triangle<EigenSolver>::v
 /// A copy is a fresh solver with the same accepted error; what was set in the solver inside stays behind. A function object
 /// that returns a solver gives each of them its settings.
 ///
-/// \tparam EigenSolver a class with Eigen's `compute`, `solve` and `info` on `Eigen::SparseMatrix<double>`, lower triangle:
-/// `Eigen::SimplicialLDLT<...>`, `Eigen::CholmodSupernodalLLT<...>`, `Eigen::ConjugateGradient<...>`
+/// \tparam EigenSolver a class with Eigen's `compute`, `solve` and `info` on `Eigen::SparseMatrix<double>`:
+/// `Eigen::SimplicialLDLT<...>`, `Eigen::CholmodSupernodalLLT<...>`, `Eigen::ConjugateGradient<...>`, `Eigen::SparseLU<...>`
 template <class EigenSolver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>>
 class Eigen_walk_solver {
-  static_assert(internal::works_on_lower_triangle<EigenSolver>,
+  static_assert(internal::reads_lower_triangle<EigenSolver>,
                 "Eigen_walk_solver fills the lower triangle of the matrix: the solver needs Eigen::Lower, as "
                 "Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> has it.");
 
@@ -142,9 +146,11 @@ void Eigen_walk_solver<EigenSolver>::factorize(const std::vector<double>& conduc
     const auto [f, g] = graph_->faces_of(static_cast<Index>(e));
     diagonal[f] += conductances_[e];
     diagonal[g] += conductances_[e];
-    if (row_[f] != none && row_[g] != none && conductances_[e] > 0)
-      entries.emplace_back(static_cast<int>(std::max(row_[f], row_[g])), static_cast<int>(std::min(row_[f], row_[g])),
-                           -conductances_[e]);
+    if (row_[f] != none && row_[g] != none && conductances_[e] > 0) {
+      const auto [low, high] = std::minmax({static_cast<int>(row_[f]), static_cast<int>(row_[g])});
+      entries.emplace_back(high, low, -conductances_[e]);
+      if constexpr (internal::reads_upper_triangle<EigenSolver>) entries.emplace_back(low, high, -conductances_[e]);
+    }
   }
   for (std::size_t f = 0; f < row_.size(); ++f) {
     if (row_[f] == none) continue;
