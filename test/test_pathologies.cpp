@@ -1046,4 +1046,24 @@ TEST(Pathologies, LabelsMayBeNegativeFarApartOrBool) {
   EXPECT_EQ(labels[face[20]], -1);
 }
 
+TEST(Pathologies, LabelThatTheMapCannotHoldIsAnErrorThatNamesIt) {
+  const Surface_mesh mesh = meshes::surface_mesh(meshes::cube(2));
+  const auto face = faces_of(mesh);
+  Random_walk walk(mesh, dihedral_conductances(mesh));
+  walk.add_seed(face[3], 0);
+  walk.add_seed(face[20], 255);
+  Written<Surface_mesh, unsigned char> labels;
+  EXPECT_EQ(walk.segment(labels.map()), 2u);
+  EXPECT_EQ(labels[face[20]], 255);
+  Written<Surface_mesh, unsigned char> none;
+  walk.add_seed(face[20], 256);  // would be 0
+  try {
+    walk.segment(none.map());
+    ADD_FAILURE() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("256"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(none.nothing());
+}
+
 }  // namespace test_pathologies

@@ -243,6 +243,16 @@ TEST(AutomaticPathologies, AWrongNumberOfSegmentsIsAnErrorThatWritesNothing) {
   EXPECT_EQ(ids.values(), std::vector<std::size_t>(80, ids.untouched));
 }
 
+TEST(AutomaticPathologies, MoreSegmentsThanTheMapHasValuesForAreAnErrorThatWritesNothing) {
+  auto mesh = meshes::surface_mesh(dumbbell());
+  const auto ids = mesh.add_property_map<meshes::Surface_mesh::Face_index, signed char>("f:id", -7).first;
+  EXPECT_THROW(segmentation_via_random_walks(mesh, ids, Automatic_segmentation(129)), std::invalid_argument);
+  const auto hierarchy = hierarchy_via_random_walks(mesh, Automatic_segmentation(129));
+  EXPECT_THROW(hierarchy.segments(Segment_count_stop(129), ids), std::invalid_argument);
+  for (const auto face : faces(mesh)) EXPECT_EQ(ids[face], -7);
+  EXPECT_EQ(hierarchy.segments(Segment_count_stop(128), ids), 128u);
+}
+
 TEST(AutomaticPathologies, ACoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex) {
   meshes::Shape shape = meshes::sphere(1);
   shape.points[7].y() = std::numeric_limits<double>::quiet_NaN();

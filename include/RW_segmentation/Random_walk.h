@@ -150,7 +150,7 @@ class Random_walk {
   ///
   /// \tparam SegmentIdMap a model of `WritablePropertyMap` with the face descriptor as key and an integer as value
   /// \returns the number of different labels written, 0 for a mesh without faces
-  /// \throws std::invalid_argument if there is no seed
+  /// \throws std::invalid_argument if there is no seed, or a label is no value of the map
   /// \throws std::runtime_error if the mesh has changed since the walk was made, or the solver fails
   /// \throws Cancelled if the callback ends the computation
   /// Nothing is written when it throws.
@@ -247,6 +247,7 @@ class Random_walk {
     static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                   "segment_ids must be a writable property map from the mesh's face_descriptor to an integer.");
     using Id = typename boost::property_traits<SegmentIdMap>::value_type;
+    internal::require_ids_fit<SegmentIdMap>(labels);
     std::set<Label> distinct;  // counted first: what may run out of memory comes before the first label is written
     for (std::size_t f = 0; f < labels.size(); ++f)
       if (f == 0 || labels[f] != labels[f - 1]) distinct.insert(labels[f]);

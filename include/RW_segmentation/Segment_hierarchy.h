@@ -53,14 +53,15 @@ class Segment_hierarchy : public Merge_tree {
   /// \param stop when merging stops
   /// \param segment_ids output, ids from 0 in the order of the segments' lowest fragments
   /// \returns the number of segments
-  /// \throws std::invalid_argument if `stop` returns fewer segments than components or more than fragments; no id is
-  /// written then
+  /// \throws std::invalid_argument if `stop` returns fewer segments than components or more than fragments, or more than
+  /// the map has values for; no id is written then
   template <class StopPredicate, class SegmentIdMap>
   std::size_t segments(const StopPredicate& stop, SegmentIdMap segment_ids) const {
     static_assert(internal::is_writable_map<SegmentIdMap, face_descriptor>,
                   "segment_ids must be a writable property map from the mesh's face_descriptor to std::size_t.");
     const std::size_t number_of_segments = internal::segments_at_stop(*this, stop);
     const std::vector<std::size_t> segment = segment_of_fragments(number_of_segments);
+    internal::require_ids_fit<SegmentIdMap>(segment);
     for (std::size_t i = 0; i < faces_.size(); ++i) put(segment_ids, faces_[i], segment[fragment_of_face_[i]]);
     return number_of_segments;
   }

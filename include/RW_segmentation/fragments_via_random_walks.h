@@ -100,6 +100,7 @@ std::size_t fragments_via_random_walks(const FaceListGraph& mesh, const Conducta
     }
     // What may run out of memory comes before the first id is written.
     const std::size_t count = *std::max_element(fragment.begin(), fragment.end()) + 1;
+    internal::require_ids_fit<FragmentIdMap>(fragment);
     dual.write_faces(std::vector<Id>(fragment.begin(), fragment.end()), fragment_ids);
     return count;
   });

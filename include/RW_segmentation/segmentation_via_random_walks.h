@@ -298,8 +298,8 @@ auto hierarchy_via_random_walks(const FaceListGraph& mesh, const Policies& polic
 /// - `callback` (`std::function<bool(double)>`, default: none): receives the fraction done, returns `false` to cancel
 /// \returns the number of segments
 /// \throws std::invalid_argument if the number of segments asked for is less than that of the components or more than
-/// that of the fragments, a number of the policies is out of range, a value of the difference negative or NaN, a
-/// coordinate not finite, or a seed is not a face of the mesh; nothing is written then
+/// that of the fragments, the map has values for fewer segments, a number of the policies is out of range, a value of the
+/// difference negative or NaN, a coordinate not finite, or a seed is not a face of the mesh; nothing is written then
 /// \throws Cancelled
 template <
     class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
@@ -323,7 +323,9 @@ std::size_t segmentation_via_random_walks(const FaceListGraph& mesh, SegmentIdMa
       const internal::Merged_fragments merged =
           internal::merged_fragments<ConcurrencyTag>(dual, policies, given_seeds, internal::progress_of(np), begin);
       const std::size_t segments = internal::segments_at_stop(merged.tree, policies.stop);
-      dual.write_faces(internal::segment_of_faces(merged, segments), segment_ids);
+      const std::vector<std::size_t> ids = internal::segment_of_faces(merged, segments);
+      internal::require_ids_fit<SegmentIdMap>(ids);
+      dual.write_faces(ids, segment_ids);
       return segments;
     });
   } else {

@@ -105,6 +105,7 @@ std::size_t transfer_segments(const ReducedMesh& reduced, const ReducedIdMap& re
     const auto transferred = internal::transferred(coarse, ids, full, conductances, band, progress);
     // What may run out of memory comes before the first id is written.
     const std::size_t segments = std::set<std::size_t>(transferred.begin(), transferred.end()).size();
+    internal::require_ids_fit<SegmentIdMap>(transferred);
     full.write_faces(std::vector<Id>(transferred.begin(), transferred.end()), segment_ids);
     return segments;
   });
