@@ -1020,7 +1020,7 @@ TEST(Pathologies, SeedsMayBeReadFromTheMapThatIsWritten) {
   for (const auto f : face) EXPECT_EQ(labels[f], expected[f]);
 }
 
-TEST(Pathologies, LabelsMayBeNegativeFarApartOrBool) {
+TEST(Pathologies, LabelsMayBeNegativeFarApartBoolOrStrings) {
   const Surface_mesh mesh = meshes::surface_mesh(meshes::cube(2));
   const auto face = faces_of(mesh);
   const auto conductance = dihedral_conductances(mesh);
@@ -1034,6 +1034,12 @@ TEST(Pathologies, LabelsMayBeNegativeFarApartOrBool) {
   EXPECT_EQ(segmentation_from_seeds(mesh, conductance, sides, ids.map()), 2u);
   EXPECT_EQ(ids[face[3]], 1u);
   EXPECT_EQ(ids[face[20]], 0u);
+
+  const std::vector<std::pair<Face<Surface_mesh>, std::string>> names = {
+      {face[3], "top"}, {face[20], "side"}, {face[40], "side"}};
+  EXPECT_EQ(segmentation_from_seeds(mesh, conductance, names, ids.map()), 2u);
+  EXPECT_EQ(ids[face[20]], 0u);
+  EXPECT_EQ(ids[face[3]], 1u);
 
   // The object gives the user's own labels back.
   Written<Surface_mesh, int> labels;

@@ -269,13 +269,26 @@ Random_walk(const Mesh&, const ConductanceMap&, const Third& = Third(), const Na
     -> Random_walk<typename internal::Mesh_type<Mesh>::type,
                    std::conditional_t<internal::is_named_parameters<Third>, Star_mesh_elimination, Third>>;
 
+namespace internal {
+
+/// What a label is called in an error: a number can be told, an enumerator cannot.
+template <class Label>
+std::string name_of_label([[maybe_unused]] const Label& label) {
+  if constexpr (std::is_arithmetic_v<Label>)
+    return "label " + std::to_string(label);
+  else
+    return "a label";
+}
+
+}  // namespace internal
+
 /// Segments a mesh by the walk from given seeds, once.
 ///
 /// \tparam Solver a model of `WalkSolver`
 /// \tparam ConcurrencyTag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (needs TBB) or `CGAL::Parallel_if_available_tag`
 /// \tparam FaceListGraph, ConductanceMap, SegmentIdMap as for `Random_walk`
 /// \tparam SeedRange a range of face descriptors, whose places are their labels, or of pairs of a face descriptor and a
-/// label; several faces may share a label
+/// label: a number, an enumerator, a string, whatever `<` orders; several faces may share a label
 /// \param segment_ids output, contiguous ids from 0: the labels in ascending order, then the components without a seed.
 /// It may be the map that the seeds were taken from.
 /// \param np as for `Random_walk`
@@ -318,7 +331,7 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
     const auto& [face, label] = labelled[s];
     if (!walk.has_face(face)) throw std::invalid_argument("seed " + std::to_string(s) + " is not a face of the mesh");
     if (const auto known = walk.label_of_seed(face); known && *known != id_of_label[label])
-      throw std::invalid_argument("seed " + std::to_string(s) + " gives label " + std::to_string(label) +
+      throw std::invalid_argument("seed " + std::to_string(s) + " gives " + internal::name_of_label(label) +
                                   " to a face that an earlier seed gives another label");
     walk.add_seed(face, id_of_label[label]);
   }
