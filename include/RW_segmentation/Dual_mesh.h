@@ -215,7 +215,8 @@ std::vector<Eigen::Vector3d> read_points(const FaceListGraph& mesh, const Vertex
 
 /// The dual mesh of a mesh together with the mesh's own descriptors: reads a map into an array, writes an array into a map.
 ///
-/// Every function of the library that takes a mesh takes this in its place and does not read the mesh again:
+/// Every function of the library that takes a mesh takes this in its place and does not read the mesh again, but
+/// `split_along_boundaries()`, which changes the mesh:
 /// \code
 /// const Dual_mesh_of dual(mesh);
 /// const Dual_mesh_of shape = smoothed_shape(dual);
