@@ -215,7 +215,7 @@ std::vector<Eigen::Vector3d> read_points(const FaceListGraph& mesh, const Vertex
 
 /// The dual mesh of a mesh together with the mesh's own descriptors: reads a map into an array, writes an array into a map.
 ///
-/// Every function of the library that takes a mesh takes this in its place and does not read the mesh again, but
+/// Every function of the library that takes a mesh takes this in its place and does not read the mesh again, but for
 /// `split_along_boundaries()`, which changes the mesh:
 /// \code
 /// const Dual_mesh_of dual(mesh);
