@@ -59,7 +59,7 @@ def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles:
     """Remove what later steps have left for other options or folders, and all steps for tiles that have changed."""
     surveys = [work / f"survey_{tile}" for tile in range(len(tiles))]
     is_old = False
-    for survey, tile in zip(surveys, tiles):
+    for survey, tile in zip(surveys, tiles, strict=True):
         if survey.exists() and survey.stat().st_mtime < Path(tile).stat().st_mtime:
             survey.unlink()
         is_old = is_old or not survey.exists()

@@ -55,7 +55,9 @@ def test_other_options_and_folders_take_the_last_steps(tool: Path, tiles: list[s
     subprocess.run([*command(tmp_path, tiles), "--workers", "1"], env=environment(tool), check=True)
     other = [sys.executable, str(RECIPE), str(tmp_path / "work"), str(tmp_path / "other"), *tiles]
     subprocess.run([*other, "--options=--segments 12"], env=environment(tool), check=True)
-    subprocess.run([tool, *tiles, "--tiled", "--quiet", "--segments", "12", "--labels", f"{tmp_path}/%.seg"], check=True)
+    subprocess.run(
+        [tool, *tiles, "--tiled", "--quiet", "--segments", "12", "--labels", f"{tmp_path}/%.seg"], check=True
+    )
     assert contents(tmp_path / "other") == contents(tmp_path)
 
 
