@@ -444,7 +444,7 @@ TEST(Boundary_representation, TakesPolygonsWithACornerWithinASide) {
 }
 
 TEST(Boundary_representation, KeepsToTheCornersOfABorder) {
-  for (const std::size_t steps : {1, 2, 3, 10}) {
+  for (const std::size_t steps : {1U, 2U, 3U, 10U}) {
     SCOPED_TRACE(steps);
     meshes::Shape sheet;
     for (std::size_t j = 0; j <= steps; ++j)
