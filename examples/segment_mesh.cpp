@@ -58,12 +58,12 @@ Exit_code run_one(const Task& task, const Options& options) {
   }
   const std::string percentage = remark_on_percentage(options.files, task.mesh);
   if (!options.is_quiet && !percentage.empty()) say(percentage);
-  Journal journal(options.journal(), options.resumes);
+  Journal journal(journal_of(options), options.resumes);
   const Json report = run(task, options, "");
   journal.write(report);
   const Exit_code code = has_unsound_shape(report) ? unsound_shape : success;
   if (options.is_quiet || writes_to_standard_output(task.files) ||
-      mesh_files::open_file_of(options.journal()) == STDOUT_FILENO)
+      mesh_files::open_file_of(journal_of(options)) == STDOUT_FILENO)
     return code;
   list(report["segments"]);
   if (!options.segments) offer_other_levels(report);

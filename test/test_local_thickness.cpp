@@ -274,8 +274,9 @@ TEST(ThicknessOfAllFaces, FillsGapsFromNeighbours) {
   EXPECT_TRUE(std::abs(thickness.back() - 0.5) < 1e-12 || std::abs(thickness.back() - 1) < 1e-12);
 }
 
-TEST(ThicknessOfAllFaces, FillsALongStripInTimeThatIsLinear) {
-  // A flat strip, with a triangle that looks at it below one end.
+TEST(ThicknessOfAllFaces, FillsALongStripFromItsEnd) {
+  // A flat strip, with a triangle that looks at it below one end: as many rings as squares, which take minutes if each looks
+  // at all faces.
   constexpr std::size_t squares = 100000;
   meshes::Shape strip;
   for (std::size_t i = 0; i <= squares; ++i)

@@ -98,14 +98,6 @@ struct Options : Choices {
   const char* mode() const { return !merges() ? "seeds" : is_engineering ? "engineering" : "graphical"; }
   /// Whether meshes are worked through one after the other, so that one that fails does not end the work.
   bool has_several_meshes() const { return meshes.size() > 1 || !list.empty(); }
-  /// The path of the report with a line for each of several meshes; none where each mesh has a report of its own. What is
-  /// resumed has several, of which one may be left.
-  std::string journal() const {
-    std::string path =
-        (has_several_meshes() || resumes) && !has_placeholder(files.report) ? files.report : std::string();
-    for (std::size_t at = 0; (at = path.find("%%", at)) != std::string::npos; ++at) path.erase(at, 1);
-    return path;
-  }
 };
 
 /// What the files of `--split` end with.

@@ -125,6 +125,14 @@ inline std::vector<std::string> lines_of(const std::string& path) {
   return result;
 }
 
+/// The path of the report with a line for each of several meshes; empty where each mesh has a report of its own. What is
+/// resumed has several, of which one may be left.
+inline std::string journal_of(const Options& options) {
+  const std::string& report = options.files.report;
+  const bool is_of_all = (options.has_several_meshes() || options.resumes) && !has_placeholder(report);
+  return is_of_all ? path_for("", report) : std::string();
+}
+
 /// Refuses paths of which one would overwrite an input or another output. Links to one mesh are meshes of their own.
 /// \param journal the report of all meshes, if there is one
 inline void check_paths(const std::vector<Task>& tasks, const std::string& journal, const Options& options) {
@@ -177,14 +185,14 @@ inline std::vector<Task> tasks_of(const Options& options) {
   if (meshes.empty() && options.list.empty()) throw CLI::RequiredError("a mesh");
 
   Files patterns = options.files;
-  if (!options.journal().empty()) patterns.report.clear();
+  if (!journal_of(options).empty()) patterns.report.clear();
   if (options.has_several_meshes()) check_patterns(patterns);
   if (options.resumes && written_files(patterns).empty() && patterns.split.empty())
     throw CLI::ValidationError("--resume", "no file tells which meshes are done: give an output for each mesh");
   std::vector<Task> tasks;
   tasks.reserve(meshes.size());
   for (const std::string& mesh : meshes) tasks.push_back({mesh, files_for(mesh, patterns)});
-  check_paths(tasks, options.journal(), options);
+  check_paths(tasks, journal_of(options), options);
   return tasks;
 }
 

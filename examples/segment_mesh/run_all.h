@@ -68,8 +68,8 @@ class Journal {
 
 /// Works through several meshes. One that fails does not end the work.
 inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options) {
-  Journal journal(options.journal(), options.resumes);
-  const bool is_quiet = options.is_quiet || mesh_files::open_file_of(options.journal()) == STDOUT_FILENO;
+  Journal journal(journal_of(options), options.resumes);
+  const bool is_quiet = options.is_quiet || mesh_files::open_file_of(journal_of(options)) == STDOUT_FILENO;
   std::size_t done = 0, failed = 0;
   for (const Task& task : tasks) {
     const std::string title = std::to_string(++done) + " of " + std::to_string(tasks.size()) + ": ";
