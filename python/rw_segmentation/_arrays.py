@@ -37,7 +37,7 @@ class Polygons(NamedTuple):
     @classmethod
     def from_lists(cls, faces: Iterable[Sequence[int]]) -> Polygons:
         """Make polygons of a sequence of vertices for each face."""
-        rows = [np.asarray(face, dtype=np.int64).reshape(-1) for face in faces]
+        rows = [integers_of(face, "the vertices of a face").astype(np.int64, copy=False).reshape(-1) for face in faces]
         offsets = np.zeros(len(rows) + 1, dtype=np.int64)
         np.cumsum([len(row) for row in rows], out=offsets[1:])
         return cls(np.concatenate(rows) if rows else np.zeros(0, dtype=np.int64), offsets)
@@ -51,9 +51,16 @@ class MeshRepairWarning(UserWarning):
     """The faces did not form an oriented surface as they were, or a file held more; the message tells what was done."""
 
 
+def array_of(values: ArrayLike, name: str) -> NDArray[Any]:
+    """Make an array; entries that are masked have no value that could be taken."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(f"{name} must not be masked: fill the entries that are, or leave them out")
+    return np.asarray(values)
+
+
 def vertices_of(vertices: ArrayLike) -> NDArray[np.float32] | NDArray[np.float64]:
     """Make an array of rows of three floats; float32 and float64 in rows are not copied."""
-    array = np.asarray(vertices)
+    array = array_of(vertices, "vertices")
     if array.size == 0 and array.ndim < 2:
         return np.zeros((0, 3))
     if array.ndim != 2 or array.shape[1] != 3:
@@ -67,7 +74,7 @@ def vertices_of(vertices: ArrayLike) -> NDArray[np.float32] | NDArray[np.float64
 
 def integers_of(values: ArrayLike, name: str) -> NDArray[Any]:
     """Make an array of integers of 32 or 64 bits; such integers in rows are not copied."""
-    array = np.asarray(values)
+    array = array_of(values, name)
     if array.size == 0 and array.dtype.kind == "f":
         array = array.astype(np.int64)
     if array.dtype.kind not in "iu":
@@ -98,6 +105,8 @@ def polygons_of(faces: Faces) -> tuple[NDArray[Any], NDArray[np.int64] | None, i
         if corners.ndim != 1 or offsets.ndim != 1:
             raise ValueError("corners and offsets must each be in one row")
         return corners, offsets, 0
+    if isinstance(faces, np.ndarray):
+        faces = array_of(faces, "faces")
     try:
         array = np.asarray(faces)
     except ValueError:
@@ -133,7 +142,7 @@ def labels_of(labels: ArrayLike, mesh: _core.Mesh, name: str = "labels") -> NDAr
 
 def numbers_of(values: ArrayLike, name: str, dimensions: int = 1) -> NDArray[np.float64]:
     """Make an array of doubles in rows."""
-    array = np.asarray(values)
+    array = array_of(values, name)
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name} must be real numbers, but are of type {array.dtype}")
     if array.ndim != dimensions:

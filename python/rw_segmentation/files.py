@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import tempfile
 import warnings
 import zlib
@@ -189,9 +190,20 @@ def write_whole(files: Sequence[OutputFile]) -> None:
                 if error.errno is None:
                     raise
                 raise type(error)(error.errno, error.strerror, os.fspath(path)) from error
+            if target.exists():
+                _give_permissions(target, temporary)
             ready.append((temporary, target))
         for temporary, target in ready:
             temporary.replace(target)
+
+
+def _give_permissions(replaced: Path, path: Path) -> None:
+    """Give a file the permissions of the one that it replaces, and its owner and group where the user may."""
+    if hasattr(os, "chown"):
+        known = replaced.stat()
+        with contextlib.suppress(OSError):
+            os.chown(path, known.st_uid, known.st_gid)
+    shutil.copymode(replaced, path)
 
 
 def _corners_and_offsets(faces: Faces) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from rw_segmentation import _core
-from rw_segmentation._arrays import Faces, integer_of, labels_of, mesh_of, numbers_of, walls_of
+from rw_segmentation._arrays import Faces, array_of, integer_of, labels_of, mesh_of, numbers_of, walls_of
 from rw_segmentation._progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -186,7 +186,7 @@ def feature_difference(
 
 def feature_difference_of_mesh(mesh: _core.Mesh, features: ArrayLike) -> NDArray[np.float64]:
     """Measure it on a mesh that has been read."""
-    table = np.asarray(features)
+    table = array_of(features, "face_features")
     table = numbers_of(table.reshape(-1, 1) if table.ndim == 1 else table, "face_features", 2)
     if table.shape[0] != mesh.number_of_faces:
         raise ValueError(f"face_features have {table.shape[0]} rows, but the mesh has {mesh.number_of_faces} faces")

@@ -213,7 +213,7 @@ class Hierarchy:
         Parameters
         ----------
         joined_at : float, optional
-            The height of that; by default a tenth above the last merge.
+            The height of that, at least that of the last merge; by default a tenth above it.
 
         Returns
         -------
@@ -223,6 +223,8 @@ class Hierarchy:
         count = self.number_of_fragments
         heights = np.maximum.accumulate(self.costs) if len(self.costs) else self.costs
         top = float(heights[-1]) * 1.1 if len(heights) else 1.0
+        if joined_at is not None and not joined_at >= (heights[-1] if len(heights) else 0.0):
+            raise ValueError(f"joined_at is {joined_at}, but must be at least the height of the last merge")
         rows = [(int(a), int(b), float(height)) for (a, b), height in zip(self.merges, heights, strict=True)]
         merged = {region for a, b, _ in rows for region in (a, b)}
         roots = [region for region in range(count + len(rows)) if region not in merged]

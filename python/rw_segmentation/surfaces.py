@@ -144,7 +144,8 @@ def segment_surfaces(
     segments : int, optional
         How many, at least one for each connected component; without it, merging stops at `stop_cost`.
     labels : array_like of int, shape (m,), optional
-        Segments that are known already, of which the surfaces are wanted alone; in the order of their labels then.
+        Segments that are known already, of which the surfaces are wanted alone, without `segments`, `stop_cost` and `walls`;
+        in the order of their labels then.
     noise : float, optional
         The standard deviation of the vertices from the surfaces, as a part of the diagonal; estimated by default.
     stop_cost : float
@@ -169,6 +170,14 @@ def segment_surfaces(
     -----
     Linear in the number of faces where regions have several faces each; 0.1 to 0.2 ms for each face that no region holds.
     """
+    if labels is not None:
+        for argument, is_given in (
+            ("segments", segments is not None),
+            ("stop_cost", stop_cost != 1),
+            ("walls", walls is not None),
+        ):
+            if is_given:
+                raise ValueError(f"{argument}: labels are segments that are known already, leave one of the two out")
     mesh = mesh_of(vertices, faces, repair)
     deviation = -1.0 if noise is None else float(noise)
     if noise is not None and not deviation >= 0:

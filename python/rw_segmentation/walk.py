@@ -13,7 +13,7 @@ from rw_segmentation._progress import Progress, reporting
 from rw_segmentation.segmentation import Difference, Policy, difference_of, policy_of
 
 if TYPE_CHECKING:
-    from typing import Literal
+    from typing import Literal, NoReturn
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -167,6 +167,10 @@ class RandomWalk:
         """
         with reporting(progress, "walk") as told:
             return self._core.probabilities(told)[1]
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be pickled: a walk is a factorisation that is made again from the mesh."""
+        raise TypeError("a RandomWalk cannot be pickled or copied: make one of the mesh where it is needed")
 
     def __repr__(self) -> str:
         """Tell the numbers of faces and seeds."""

@@ -8,11 +8,17 @@
 
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace rw_python {
 namespace {
@@ -78,6 +84,52 @@ nb::dict report(const Hierarchy& hierarchy) {
   return result;
 }
 
+/// The numbers of a report, and the names and seconds of its stages.
+using Report_state = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t, std::size_t, std::size_t, bool,
+                                double, std::vector<std::pair<std::string, double>>>;
+
+/// What a pickle holds: the number of fragments, the regions and costs of the merges, the fragment of each face, the number
+/// of segments by the shape, and the report.
+using State = std::tuple<std::size_t, Pairs, Numbers, Integers, std::size_t, Report_state>;
+
+nb::tuple state_of(const Hierarchy& hierarchy) {
+  const RW::Segmentation_report& known = hierarchy.report;
+  Report_state report(known.components, known.seeds, known.clusters, known.fragments, known.degenerate_faces,
+                      known.island_faces, known.has_heavy_noise, known.noise, {});
+  for (const auto& stage : known.stages) std::get<8>(report).emplace_back(stage.name, stage.seconds);
+  return nb::make_tuple(hierarchy.tree.number_of_fragments(), merges(hierarchy), costs(hierarchy),
+                        array_of(std::vector<std::int64_t>(hierarchy.fragment_of_face)), hierarchy.suggested,
+                        std::move(report));
+}
+
+/// \throws std::invalid_argument if a number is that of no region, as in a file that is broken
+Hierarchy hierarchy_of_state(const State& state) {
+  const auto& [fragments, regions, costs, fragment_of_face, suggested, report] = state;
+  const auto region = [](std::int64_t number, std::size_t end) {
+    if (number < 0 || static_cast<std::size_t>(number) >= end)
+      throw std::invalid_argument("the hierarchy is broken: it has no region " + std::to_string(number));
+    return static_cast<std::size_t>(number);
+  };
+  if (regions.shape(0) != costs.shape(0) || costs.shape(0) > fragments)
+    throw std::invalid_argument("the hierarchy is broken: its numbers of merges and regions do not fit");
+  std::vector<RW::Merge_tree::Merge> merges;
+  merges.reserve(costs.shape(0));
+  for (std::size_t i = 0; i < costs.shape(0); ++i)
+    merges.push_back({region(regions(i, 0), fragments + i), region(regions(i, 1), fragments + i), costs(i)});
+  Hierarchy result;
+  result.tree = RW::Merge_tree(fragments, std::move(merges));
+  result.fragment_of_face.reserve(fragment_of_face.shape(0));
+  for (std::size_t f = 0; f < fragment_of_face.shape(0); ++f)
+    result.fragment_of_face.push_back(static_cast<std::int64_t>(region(fragment_of_face(f), fragments)));
+  result.suggested = suggested;
+  RW::Segmentation_report& known = result.report;
+  std::vector<std::pair<std::string, double>> stages;
+  std::tie(known.components, known.seeds, known.clusters, known.fragments, known.degenerate_faces, known.island_faces,
+           known.has_heavy_noise, known.noise, stages) = report;
+  for (auto& [name, seconds] : stages) known.stages.push_back({std::move(name), seconds});
+  return result;
+}
+
 }  // namespace
 
 void define_hierarchy(nb::module_& m) {
@@ -93,6 +145,10 @@ void define_hierarchy(nb::module_& m) {
           nb::rv_policy::move)
       .def_prop_ro("report", &report, nb::for_getter(nb::sig("def report(self, /) -> dict[str, typing.Any]")))
       .def("labels", &labels, nb::arg("number"))
+      .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def(
+          "__setstate__", [](Hierarchy& h, const State& state) { new (&h) Hierarchy(hierarchy_of_state(state)); },
+          nb::sig("def __setstate__(self, state: tuple[typing.Any, ...], /) -> None"))
       .def(
           "levels", [](const Hierarchy& h, std::size_t number) { return h.tree.levels(number); }, nb::arg("number"));
   m.def("hierarchy", &hierarchy, nb::arg("mesh"), nb::arg("choices"), nb::arg("seeds"), nb::arg("difference").none(),

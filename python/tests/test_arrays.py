@@ -72,6 +72,34 @@ def test_polygons_are_the_same_as_an_array_or_lists_or_offsets(cube: Mesh) -> No
         assert np.array_equal(rw.segment(cube.vertices, faces, 4, policy="paper"), expected)
 
 
+def test_corners_in_lists_are_integers_as_in_arrays(cube: Mesh) -> None:
+    triangles = cube.faces[0][[0, 1, 2]].tolist(), cube.faces[0][[0, 2, 3]].tolist()
+    for wrong in ([corner + 0.5 for corner in triangles[1]], [corner > 0 for corner in triangles[1]]):
+        lists = [*cube.faces[1:].tolist(), triangles[0], wrong]
+        for take in (rw.Polygons.from_lists, lambda rows: rw.segment(cube.vertices, rows)):
+            with pytest.raises(ValueError, match="the vertices of a face must be integers"):
+                take(lists)
+
+
+def test_masked_entries_are_refused_and_others_of_masked_arrays_taken() -> None:
+    mesh = grid(6, 5)
+    expected = rw.segment(*mesh, 2)
+    assert np.array_equal(rw.segment(np.ma.array(mesh.vertices), np.ma.array(mesh.faces), 2), expected)
+    vertices, faces = np.ma.array(mesh.vertices), np.ma.array(mesh.faces)
+    labels, features = np.ma.array(expected), np.ma.array(np.ones((len(expected), 2)))
+    for array in (vertices, faces, labels, features):
+        array[3] = np.ma.masked
+    for call in (
+        lambda: rw.segment(vertices, mesh.faces),
+        lambda: rw.segment(mesh.vertices, faces),
+        lambda: rw.segment_colors(*mesh, labels),
+        lambda: rw.segment(*mesh, face_features=features),
+        lambda: rw.refine(*mesh, features),
+    ):
+        with pytest.raises(ValueError, match="must not be masked"):
+            call()
+
+
 def test_mixed_polygons_may_be_lists(cube: Mesh) -> None:
     lists = [*cube.faces[1:].tolist(), cube.faces[0][[0, 1, 2]].tolist(), cube.faces[0][[0, 2, 3]].tolist()]
     labels = rw.segment(cube.vertices, lists)

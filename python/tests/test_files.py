@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import gzip
+import os
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -240,6 +242,19 @@ def test_a_link_stays_a_link(cube: Mesh, tmp_path: Path) -> None:
     rw.write_segments(tmp_path / "link.ply", *cube, np.arange(6))
     assert (tmp_path / "link.ply").is_symlink()
     assert (tmp_path / "target.ply").read_bytes().startswith(b"ply")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
+def test_a_file_has_the_permissions_of_the_one_that_it_replaces(cube: Mesh, tmp_path: Path) -> None:
+    path = tmp_path / "cube.obj"
+    for mode in (0o600, 0o640, 0o444):
+        for name in (path, path.with_suffix(".mtl")):
+            name.touch()
+            name.chmod(mode)
+        rw.write_segments(path, *cube, range(6))
+        for name in (path, path.with_suffix(".mtl")):
+            assert stat.S_IMODE(name.stat().st_mode) == mode
+            assert name.stat().st_size > 0
 
 
 def test_labels_go_to_standard_output_as_it_is(elephant: Mesh, tmp_path: Path) -> None:

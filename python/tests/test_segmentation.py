@@ -82,6 +82,10 @@ def test_scipy_cuts_the_linkage_into_the_same_segments(elephant: Mesh, parts: in
     assert scipy.cluster.hierarchy.is_monotonic(linkage)
     assert linkage[-1, 3] == levels.number_of_fragments
     assert linkage[-1, 2] >= linkage[:, 2].max()
+    assert levels.to_linkage(joined_at=1e3)[-1, 2] == (1e3 if parts > 1 else linkage[-1, 2])
+    for wrong in (float("nan"), 0.99 * levels.costs.max()):
+        with pytest.raises(ValueError, match=r"joined_at is .*, but must be at least the height"):
+            levels.to_linkage(joined_at=wrong)
     # Merges are numbered as scipy numbers them, so that its clusters at a height are ours at that number of merges.
     heights = linkage[:, 2]
     for height in np.unique(heights)[:-1]:
@@ -386,6 +390,25 @@ def test_surfaces_of_a_part_are_found_with_their_numbers() -> None:
     assert json.loads(json.dumps([dataclasses.asdict(surface) for surface in surfaces]))[0]["type"] == surfaces[0].type
     with pytest.raises(ValueError, match="noise is -1"):
         rw.segment_surfaces(part.vertices, part.faces, noise=-1)
+
+
+def test_surfaces_take_no_number_that_is_none(cube: Mesh) -> None:
+    nan, inf = float("nan"), float("inf")
+    labels = range(6)
+    for options, message in [
+        ({"stop_cost": nan}, "stop_cost is nan"),
+        ({"noise": nan}, "noise is nan"),
+        ({"noise": inf}, "noise is inf"),
+        ({"noise": -0.1}, "noise is -0.1"),
+        ({"noise": inf, "labels": labels}, "noise is inf"),
+        ({"segments": 3, "labels": labels}, "segments: labels are segments that are known already"),
+        ({"stop_cost": 2, "labels": labels}, "stop_cost: labels are"),
+        ({"walls": [(0, 1)], "labels": labels}, "walls: labels are"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            rw.segment_surfaces(*cube, **options)  # type: ignore[arg-type]
+    assert len(rw.segment_surfaces(*cube, stop_cost=-inf)[1]) == 6
+    assert len(rw.segment_surfaces(*cube, stop_cost=inf)[1]) == 1
 
 
 def test_smooth_boundaries_lie_on_the_mesh_and_are_cut_into_it(elephant: Mesh) -> None:
