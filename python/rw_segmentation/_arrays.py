@@ -132,7 +132,10 @@ def mesh_of(vertices: ArrayLike, faces: Faces, repair: bool, *, warn: bool = Tru
 
 def labels_of(labels: ArrayLike, mesh: _core.Mesh, name: str = "labels") -> NDArray[np.int64]:
     """Make an array with one label a face."""
-    array = integers_of(labels, name).astype(np.int64, copy=False)
+    array = integers_of(labels, name)
+    if array.dtype == np.uint64 and array.size and int(array.max()) >= 2**63:
+        raise ValueError(f"{name} must be less than 2**63, but one is {array.max()}")
+    array = array.astype(np.int64, copy=False)
     if array.shape != (mesh.number_of_faces,):
         raise ValueError(
             f"{name} must be of shape ({mesh.number_of_faces},), one a face, but are of shape {array.shape}"

@@ -100,6 +100,15 @@ def test_masked_entries_are_refused_and_others_of_masked_arrays_taken() -> None:
             call()
 
 
+def test_labels_of_64_bits_are_taken_with_a_sign_and_never_wrapped() -> None:
+    mesh = grid(6, 5)
+    labels = rw.segment(*mesh, 2)
+    for first in (-(2**63), -1, 2**63 - 1):
+        assert set(rw.segment_colors(*mesh, np.where(labels == 0, first, 7))) == {first, 7}
+    with pytest.raises(ValueError, match=r"labels must be less than 2\*\*63, but one is 9223372036854775808"):
+        rw.segment_colors(*mesh, np.where(labels == 0, 2**63, 7).astype(np.uint64))
+
+
 def test_mixed_polygons_may_be_lists(cube: Mesh) -> None:
     lists = [*cube.faces[1:].tolist(), cube.faces[0][[0, 1, 2]].tolist(), cube.faces[0][[0, 2, 3]].tolist()]
     labels = rw.segment(cube.vertices, lists)
