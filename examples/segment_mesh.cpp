@@ -52,7 +52,7 @@ Exit_code run_tiles(const std::vector<Task>& tiles, const Options& options) {
 }
 
 Exit_code run_one(const Task& task, const Options& options) {
-  if (options.resumes && is_done(task)) {
+  if (options.resumes && is_done(task, options)) {
     if (!options.is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
     return success;
   }

@@ -126,6 +126,9 @@ TEST_F(Segment_mesh_tool, ErrorsNameTheOptionAndItsRange) {
   expect(3, "--convex-weight", "2", "from 0 to 1");
   expect(1, "--constraints-angle", "200", "an angle in degrees between 0 and 180");
   expect(1, "--time-limit", "soon", "larger than 0 and finite");
+  expect(1, "--noise", "-1", "0 or larger, and finite");
+  expect(1, "--regular-length", "nan", "0 or larger, and finite");
+  expect(1, "--regular-angle", "50", "an angle from 0 to 45 degrees");
   expect_failure(1, "--measure: foo is none of angle, cosine", {"strip.off", "--measure", "foo"});
 }
 

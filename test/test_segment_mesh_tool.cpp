@@ -885,6 +885,21 @@ TEST_F(Segment_mesh_tool, PointColorsAreThoseOfTheFaces) {
   }
 }
 
+TEST_F(Segment_mesh_tool, PointColorsThatNoOutputHasAreRefused) {
+  write("strip.off", strip(3));
+  const std::vector<std::string> point_colors = {"strip.off", "--point-colors"};
+  for (const std::vector<std::string>& outputs :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--labels", "o.seg"},
+                                             {"-o", "o.stl"},
+                                             {"-o", "o.glb", "-o", "o.vtp"},
+                                             {"--split", "parts", "--output-format", "stl"}})
+    expect_failure(1, "--point-colors: only .ply, .off and .obj have them", point_colors + outputs);
+  for (const std::vector<std::string>& outputs : std::vector<std::vector<std::string>>{
+           {"-o", "o.stl", "-o", "o.obj"}, {"--split", "parts"}, {"--split", "texts", "--output-format", "off"}})
+    EXPECT_EQ(run(point_colors + outputs).exit_code, 0) << testing::PrintToString(outputs);
+}
+
 // ---- Several meshes ----
 
 TEST_F(Segment_mesh_tool, SeveralMeshesGetWhatEachGetsAlone) {
@@ -958,6 +973,31 @@ TEST_F(Segment_mesh_tool, ResumingDoesOnlyWhatIsMissingOrOlderThanTheMesh) {
   for (std::string line; std::getline(report, line);) done.push_back(nlohmann::json::parse(line)["mesh"]);
   EXPECT_EQ(done, (std::vector<std::string>{"a.off", "b.off", "c.off", "d.off", "a.off", "b.off", "d.off"}));
   for (const std::string& name : names) EXPECT_EQ(labels(name + ".seg").size(), 6U);
+}
+
+TEST_F(Segment_mesh_tool, ResumingDoesAgainWhatIsOlderThanAnyOfItsInputs) {
+  using namespace std::chrono_literals;
+  for (const std::string name : {"a", "b"}) {
+    write(name + ".off", strip(3));
+    write(name + ".seeds", "0\n5\n");
+    write(name + ".walls", "0 1\n");
+  }
+  write("page.html", "<html>" + place_for_result + "null</script></html>\n");
+  const std::vector<std::string> arguments = {"a.off",    "b.off",     "--seeds-file", "%.seeds", "--constraints",
+                                              "%.walls",  "--html",    "out_%.html",   "--page",  "page.html",
+                                              "--report", "all.jsonl", "--resume"};
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  const auto now = std::filesystem::last_write_time(path("page.html"));
+  for (const auto& [changed, meshes] :
+       {std::pair<std::string, std::size_t>("a.seeds", 1), {"b.walls", 1}, {"page.html", 2}}) {
+    for (const auto& [name, content] : files()) std::filesystem::last_write_time(path(name), now - 2h);
+    std::filesystem::last_write_time(path(changed), now - 1h);
+    const std::size_t before = number_of_lines(content_of(path("all.jsonl")));
+    ASSERT_EQ(run(arguments).exit_code, 0) << changed;
+    EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), before + meshes) << changed;
+    ASSERT_EQ(run(arguments).exit_code, 0) << changed;
+    EXPECT_EQ(number_of_lines(content_of(path("all.jsonl"))), before + meshes) << changed;
+  }
 }
 
 TEST_F(Segment_mesh_tool, ResumingGoesOnAfterTheLastWholeLineOfTheReport) {

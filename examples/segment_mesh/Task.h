@@ -203,15 +203,19 @@ inline bool writes_to_standard_output(const Files& files) {
                      [](const auto& file) { return mesh_files::open_file_of(file.second) == STDOUT_FILENO; });
 }
 
-/// Whether all files of a mesh are there and none is older than it.
-inline bool is_done(const Task& task) {
+/// Whether all files of a mesh are there and none is older than it or another file that it was made of.
+inline bool is_done(const Task& task, const Options& options) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::file_time_type time_of_mesh = fs::last_write_time(task.mesh, error);
-  if (error) return false;
+  fs::file_time_type time_of_inputs = fs::file_time_type::min();
+  for (const std::string& input : {task.mesh, task.files.seeds, task.files.constraints, options.page}) {
+    if (input.empty()) continue;
+    time_of_inputs = std::max(time_of_inputs, fs::last_write_time(input, error));
+    if (error) return false;
+  }
   const auto is_new = [&](const fs::path& path) {
     const fs::file_time_type time = fs::last_write_time(path, error);
-    return !error && time >= time_of_mesh;
+    return !error && time >= time_of_inputs;
   };
   const auto written = written_files(task.files);
   if (!std::all_of(written.begin(), written.end(), [&](const auto& file) { return is_new(file.second); })) return false;

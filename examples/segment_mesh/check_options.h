@@ -182,6 +182,15 @@ inline void check_combinations(const Options& options) {
   if (options.are_parts_closed && files.split.empty() &&
       !has_output([](const std::string&, Output_format format) { return format == Output_format::three_mf; }))
     throw CLI::ValidationError("--cap-parts", "there are no parts: give --split or an --output .3mf, too");
+  if (options.has_point_colors) {
+    const auto has_points = [](Output_format format) {
+      return format == Output_format::ply || format == Output_format::off || format == Output_format::obj;
+    };
+    if (!has_output([&](const std::string&, Output_format format) { return has_points(format); }) &&
+        (files.split.empty() || !has_points(options.output_format.value_or(Output_format::ply))))
+      throw CLI::ValidationError("--point-colors",
+                                 "only .ply, .off and .obj have them: give such an --output, or leave it out");
+  }
   const bool takes_format = !files.split.empty() || has_output([](const std::string& path, Output_format format) {
     return format == Output_format::text_stl || tells_no_format(path);
   });

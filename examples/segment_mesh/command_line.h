@@ -56,6 +56,7 @@ constexpr Range<double> finite_positive = {"larger than 0 and finite",
                                            [](double x) { return x > 0 && x <= std::numeric_limits<double>::max(); }};
 constexpr Range<double> positive = {"larger than 0; inf is allowed", [](double x) { return x > 0; }};
 constexpr Range<double> angles = {"an angle in degrees between 0 and 180", [](double x) { return x > 0 && x < 180; }};
+constexpr Range<double> small_angles = {"an angle from 0 to 45 degrees", [](double x) { return x >= 0 && x <= 45; }};
 
 /// Adds an option that takes a number.
 /// \tparam Error thrown for a number out of the range; what is no number is wrong usage
@@ -186,11 +187,11 @@ inline void define_command_line(CLI::App& app, Options& options) {
       ->excludes(coarse)
       ->excludes(paper)
       ->group("Automatic segments");
-  app.add_option(
-         "--noise", options.noise,
-         "How far vertices are off their surfaces for --engineering: their standard deviation, in the mesh's unit,\n"
-         "instead of an estimate; --report tells what was reckoned with")
-      ->check(CLI::NonNegativeNumber)
+  add_number<CLI::ValidationError>(
+      app, "--noise", options.noise, finite_lengths,
+      "How far vertices are off their surfaces for --engineering: their standard deviation, in the mesh's unit,\n"
+      "instead of an estimate; --report tells what was reckoned with")
+      ->option_text("LENGTH")
       ->needs("--engineering")
       ->group("Automatic segments");
   app.add_flag(
@@ -199,13 +200,15 @@ inline void define_command_line(CLI::App& app, Options& options) {
          "that, within three standard errors or the tolerances below; --report has each change")
       ->needs("--engineering")
       ->group("Automatic segments");
-  app.add_option("--regular-length", options.regular_length,
-                 "What positions and radii may differ by for --regular, in the mesh's unit, instead of standard errors")
-      ->check(CLI::NonNegativeNumber)
+  add_number<CLI::ValidationError>(
+      app, "--regular-length", options.regular_length, finite_lengths,
+      "What positions and radii may differ by for --regular, in the mesh's unit, instead of standard errors")
+      ->option_text("LENGTH")
       ->group("Automatic segments");
-  app.add_option("--regular-angle", options.regular_angle,
-                 "What directions may differ by for --regular, in degrees, instead of standard errors")
-      ->check(CLI::Range(0., 45.))
+  add_number<CLI::ValidationError>(
+      app, "--regular-angle", options.regular_angle, small_angles,
+      "What directions may differ by for --regular, in degrees, instead of standard errors")
+      ->option_text("DEGREES")
       ->group("Automatic segments");
 
   add_choice(app, "--difference", options.difference, difference_names,
@@ -295,10 +298,9 @@ inline void define_command_line(CLI::App& app, Options& options) {
   app.add_flag("--keep-invalid", options.keeps_invalid,
                "Write CAD files that fail their checks, too; the exit code tells")
       ->group("Output");
-  app.add_flag(
-         "--point-colors", options.has_point_colors,
-         "Colour points instead of faces, for viewers that do not show colours of faces. Points between segments\n"
-         "are written once for each segment.")
+  app.add_flag("--point-colors", options.has_point_colors,
+               "Colour points instead of faces in .ply, .off and .obj, for viewers that do not show colours of faces.\n"
+               "Points between segments are written once for each segment.")
       ->group("Output");
   app.add_option("--labels", options.files.labels, "One label a line for each face; or NumPy's .npz, or .csv")
       ->option_text("FILE")

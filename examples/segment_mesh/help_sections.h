@@ -62,8 +62,9 @@ constexpr std::array<Help_section, 8> help_sections = {{
      "(and of --seeds-file and --constraints), % stands for the name of the mesh, without folder and extension,\n"
      "{folder} for the folders on its path, joined by _, and %% for a percent sign, also where there is one mesh. A\n"
      "--report without a % gets one line for each mesh as soon as it is done, with \"error\" in it if it failed. With\n"
-     "--resume, meshes are passed over whose outputs are all there and not older than the mesh; the report goes on\n"
-     "after its last line. Whether other options have changed is not looked at.\n",
+     "--resume, meshes are passed over whose outputs are all there and not older than the mesh and the files of\n"
+     "--seeds-file, --constraints and --page; the report goes on after its last line. Whether other options have\n"
+     "changed is not looked at.\n",
      false},
     {"Tiles of one mesh",
      "With --tiled, the meshes are tiles of one mesh that may be larger than the memory. Segments, labels and the one\n"

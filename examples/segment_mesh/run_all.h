@@ -73,7 +73,7 @@ inline Exit_code run_all(const std::vector<Task>& tasks, const Options& options)
   std::size_t done = 0, failed = 0;
   for (const Task& task : tasks) {
     const std::string title = std::to_string(++done) + " of " + std::to_string(tasks.size()) + ": ";
-    if (options.resumes && is_done(task)) {
+    if (options.resumes && is_done(task, options)) {
       if (!is_quiet) std::printf("%s: done before\n", task.mesh.c_str());
       continue;
     }
