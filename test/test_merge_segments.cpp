@@ -583,6 +583,16 @@ TEST(StopPredicates, StopWhereTheySay) {
   EXPECT_EQ(Cost_jump_stop(1)(tree), 1u);
 }
 
+TEST(StopPredicates, RefuseCostsThatAreNoNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Cost_threshold_stop{nan}, std::invalid_argument);
+  EXPECT_THROW(Cost_jump_stop{nan}, std::invalid_argument);
+  const Merge_tree tree(3, {{0, 1, 0.1}, {2, 3, 0.3}});
+  EXPECT_EQ(Cost_threshold_stop(infinity)(tree), 1u);
+  EXPECT_EQ(Cost_threshold_stop(-infinity)(tree), 3u);
+  EXPECT_EQ(Cost_jump_stop(infinity)(tree), 1u);
+}
+
 TEST(StopPredicates, MayBeTheUsersOwn) {
   const Surface_mesh mesh = bumpy_torus();
   Face_labels<Surface_mesh> ids(mesh, cells(Mesh_graph<Surface_mesh>(mesh), 40));

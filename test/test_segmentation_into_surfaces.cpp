@@ -900,6 +900,9 @@ TEST(SegmentationIntoSurfaces, RefusesNumbersOutOfRange) {
   Surface_segmentation numbers;
   numbers.noise = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(segments_of(mesh, numbers), std::invalid_argument);
+  numbers = Surface_segmentation();
+  numbers.stop_cost = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(hierarchy_of_surfaces(mesh, numbers), std::invalid_argument);
   EXPECT_THROW(segments_of(mesh, Surface_segmentation(0)), std::invalid_argument);
 }
 

@@ -279,6 +279,12 @@ TEST(AutomaticPathologies, NumbersOutOfRangeAreErrors) {
   policy = Automatic_segmentation();
   policy.difference.convex_weight = -1;
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
+  for (const double share : {-0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    policy = Automatic_segmentation();
+    policy.least_component = share;
+    EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), policy), std::invalid_argument);
+    EXPECT_THROW(hierarchy_via_random_walks(mesh, policy), std::invalid_argument);
+  }
   EXPECT_EQ(ids.values().front(), ids.untouched);
 }
 

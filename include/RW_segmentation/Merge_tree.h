@@ -62,6 +62,14 @@ class Merge_tree {
   std::vector<Merge> merges_;
 };
 
+namespace internal {
+
+/// Refuses a cost that nothing is larger or smaller than.
+/// \throws std::invalid_argument naming the argument
+void require_cost(const char* argument, double cost);
+
+}  // namespace internal
+
 /// Stops at exactly so many segments; a model of `StopPredicate`.
 class Segment_count_stop {
  public:
@@ -79,7 +87,8 @@ class Segment_count_stop {
 class Cost_threshold_stop {
  public:
   /// \param threshold the largest cost of a merge
-  explicit Cost_threshold_stop(double threshold) : threshold_(threshold) {}
+  /// \throws std::invalid_argument if it is NaN
+  explicit Cost_threshold_stop(double threshold);
 
   /// The number of segments to stop at.
   std::size_t operator()(const Merge_tree& tree) const;
@@ -92,7 +101,8 @@ class Cost_threshold_stop {
 class Cost_jump_stop {
  public:
   /// \param increase the least rise of the cost above the highest one so far that counts as a jump
-  explicit Cost_jump_stop(double increase) : increase_(increase) {}
+  /// \throws std::invalid_argument if it is NaN
+  explicit Cost_jump_stop(double increase);
 
   /// The number of segments to stop at.
   std::size_t operator()(const Merge_tree& tree) const;

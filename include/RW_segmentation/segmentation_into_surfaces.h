@@ -84,6 +84,7 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
     const auto& dual = internal::dual_mesh(mesh, np);
     clock.note("mesh");
     internal::require_noise(numbers.noise);
+    internal::require_cost("stop_cost", numbers.stop_cost);
     if (dual.number_of_faces() == 0) return {};
     internal::Segments_on_surfaces segments =
         internal::segment_into_surfaces(dual, numbers.noise, internal::progress_of(np), report, clock);
@@ -132,7 +133,7 @@ auto hierarchy_of_surfaces(const FaceListGraph& mesh, const NamedParameters& np)
 /// - `callback` (`std::function<bool(double)>`, default: none): receives the fraction done, returns `false` to cancel
 /// \returns the number of segments
 /// \throws std::invalid_argument if the number of segments asked for is less than that of the components or more than
-/// that of the fragments, or the noise or a coordinate is not finite; nothing is written then
+/// that of the fragments, the noise or a coordinate is not finite, or the cost to stop at is NaN; nothing is written then
 /// \throws Cancelled
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceListGraph, class SegmentIdMap,
           class NamedParameters = CGAL::parameters::Default_named_parameters>

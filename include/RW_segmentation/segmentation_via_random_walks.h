@@ -55,6 +55,10 @@ struct Merged_fragments {
 /// \throws std::invalid_argument
 void require_seedings(std::size_t seedings);
 
+/// Refuses what is no share of an area.
+/// \throws std::invalid_argument if it is negative or NaN
+void require_least_component(double share);
+
 /// Segments a mesh that has been read: seeds, walk, merging.
 /// \tparam Mesh a `Dual_mesh_of`, or `Dual_mesh` for policies that ask for no descriptors
 /// \param begin when its reading began
@@ -235,6 +239,7 @@ Random_walk_hierarchy<typename internal::Mesh_type<FaceListGraph>::type> hierarc
   static_assert(internal::are_arguments<Policies, NamedParameters>());
   internal::require_reduction_numbers(policies.reduction);
   internal::require_seedings(policies.seedings);
+  internal::require_least_component(policies.least_component);
   return internal::with_threads<ConcurrencyTag>([&]() -> Hierarchy {
     const internal::Stage_clock::Time begin = internal::Stage_clock::now();
     const auto& dual = internal::dual_mesh(mesh, np);
@@ -317,6 +322,7 @@ std::size_t segmentation_via_random_walks(const FaceListGraph& mesh, SegmentIdMa
                 internal::are_arguments<Policies, NamedParameters>()) {
     internal::require_reduction_numbers(policies.reduction);
     internal::require_seedings(policies.seedings);
+    internal::require_least_component(policies.least_component);
     return internal::with_threads<ConcurrencyTag>([&] {
       const internal::Stage_clock::Time begin = internal::Stage_clock::now();
       const auto& dual = internal::dual_mesh(mesh, np);

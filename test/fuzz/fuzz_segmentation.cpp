@@ -48,7 +48,7 @@ template <class Policies>
 void check_policies(const Mesh& mesh, const fuzz::Walls& walls, Policies policies, fuzz::Input& input) {
   std::optional<std::size_t> wanted;
   if (input.flip()) policies.stop = Segment_count_stop(*(wanted = input.below(12)));
-  if (!wanted && input.flip()) policies.stop = Cost_threshold_stop(input.number(false));
+  if (!wanted && input.flip()) fuzz::accepts([&] { policies.stop = Cost_threshold_stop(input.number(false)); });
   if (input.below(4) == 0) policies.sigma = input.number(false);
   if (input.below(4) == 0) policies.cap = input.number(false);
   if (input.below(4) == 0) policies.smoothing.radius = input.number(false);

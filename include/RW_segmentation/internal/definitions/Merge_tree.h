@@ -81,6 +81,10 @@ RW_SEGMENTATION_INLINE std::size_t Merge_tree::longest_level(std::size_t fewest,
   return level;
 }
 
+RW_SEGMENTATION_INLINE Cost_threshold_stop::Cost_threshold_stop(double threshold) : threshold_(threshold) {
+  internal::require_cost("threshold", threshold);
+}
+
 RW_SEGMENTATION_INLINE std::size_t Cost_threshold_stop::operator()(const Merge_tree& tree) const {
   std::size_t segments = tree.number_of_fragments();
   for (const Merge_tree::Merge& merge : tree.merges()) {
@@ -88,6 +92,10 @@ RW_SEGMENTATION_INLINE std::size_t Cost_threshold_stop::operator()(const Merge_t
     --segments;
   }
   return segments;
+}
+
+RW_SEGMENTATION_INLINE Cost_jump_stop::Cost_jump_stop(double increase) : increase_(increase) {
+  internal::require_cost("increase", increase);
 }
 
 RW_SEGMENTATION_INLINE std::size_t Cost_jump_stop::operator()(const Merge_tree& tree) const {
@@ -102,6 +110,10 @@ RW_SEGMENTATION_INLINE std::size_t Cost_jump_stop::operator()(const Merge_tree& 
 }
 
 namespace internal {
+
+RW_SEGMENTATION_INLINE void require_cost(const char* argument, double cost) {
+  if (std::isnan(cost)) throw argument_error(argument, cost, "a number");
+}
 
 RW_SEGMENTATION_INLINE Merge_tree side_by_side(const std::vector<Merge_tree>& trees) {
   struct Next {

@@ -33,6 +33,10 @@ RW_SEGMENTATION_INLINE void require_seedings(std::size_t seedings) {
   if (seedings == 0) throw argument_error("seedings", seedings, "at least 1");
 }
 
+RW_SEGMENTATION_INLINE void require_least_component(double share) {
+  if (!(share >= 0)) throw argument_error("least_component", share, "at least 0");
+}
+
 // ---- Components ----
 
 inline void add_report(const Segmentation_report& component, Segmentation_report& report) {
