@@ -486,6 +486,32 @@ TEST_F(File_test, AnOutputAppearsWholeOrNotAtAll) {
   EXPECT_THROW(mesh_files::Output_file(path("")), mesh_files::Unwritable_file);  // a folder
 }
 
+TEST_F(File_test, AnOutputHasThePermissionsOfTheFileThatItReplaces) {
+  using std::filesystem::perms;
+  const std::string old = write("old.seg", "old"), link = path("link.seg");
+  std::filesystem::create_symlink("old.seg", link);
+  for (const std::string& name : {old, link})
+    for (const perms wanted : {perms::owner_read | perms::owner_write, perms::owner_read, perms::all}) {
+      std::filesystem::permissions(old, wanted);
+      mesh_files::Output_file file(name);
+      file.write("new");
+      EXPECT_EQ(number_of_files(), 3U);  // the unfinished one, too
+      for (const auto& entry : std::filesystem::directory_iterator(path("")))
+        EXPECT_EQ(entry.status().permissions(), wanted) << entry.path();
+      file.commit();
+      EXPECT_EQ(std::filesystem::status(old).permissions(), wanted);
+      EXPECT_EQ(mesh_files::read_content(old), "new");
+    }
+}
+
+TEST_F(File_test, LabelsThatAPlyFileCannotHoldAreRefused) {
+  const Polygon_soup soup = soup_of(tetrahedron_points, tetrahedron_faces);
+  constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
+  mesh_files::Output_file ply(path("out.ply"));
+  mesh_files::write_ply(ply, soup, {}, {0, 1, 2, largest});
+  EXPECT_THROW(mesh_files::write_ply(ply, soup, {}, {0, 1, 2, largest + 1}), mesh_files::Unwritable_file);
+}
+
 // ---- A surface of the faces of a file ----
 
 const std::vector<Point> cube_points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},

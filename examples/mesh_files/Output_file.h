@@ -8,6 +8,7 @@
 #include "Polygon_soup.h"
 #include "Text.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -34,7 +35,8 @@ inline std::optional<int> open_file_of(const std::string& path) {
 
 /// A file that appears whole or not at all: it is written under a temporary name in its own folder and gets its name
 /// by `commit()`. Without that, nothing remains. What is there and no file, such as a pipe or a device, is written to as
-/// it is, and so are files that are open already, such as /dev/stdout; a link stays a link.
+/// it is, and so are files that are open already, such as /dev/stdout; a link stays a link. A file that takes the place of
+/// another one has its permissions, and its owner and group where the user may give files to them.
 class Output_file final : public Output {
  public:
   /// \throws Unwritable_file if the file cannot be created
@@ -55,6 +57,7 @@ class Output_file final : public Output {
     if (target_.empty()) target_ = path_;
     while (!create_temporary())
       if (errno != EEXIST) fail();
+    take_permissions();
   }
 
   ~Output_file() override {
@@ -97,6 +100,19 @@ class Output_file final : public Output {
     Partial_files::forget(std::exchange(entry_, nullptr));
     errno = error;
     return false;
+  }
+
+  /// Before anything is written, so that nobody reads it who may not.
+  void take_permissions() const {
+    constexpr ::mode_t permissions = 0777;
+    struct ::stat replaced, created;
+    const int file = ::fileno(file_);
+    if (::stat(target_.c_str(), &replaced) != 0 || ::fstat(file, &created) != 0) return;
+    if (replaced.st_uid != created.st_uid || replaced.st_gid != created.st_gid) [[maybe_unused]]
+      const bool is_given = ::fchown(file, replaced.st_uid, replaced.st_gid) == 0;
+    const ::mode_t wanted = replaced.st_mode & permissions;
+    // Where no file has any of its own, as on some drives, none can be changed.
+    if (wanted != (created.st_mode & permissions) && ::fchmod(file, wanted) != 0) fail();
   }
 
   std::string path_, target_;

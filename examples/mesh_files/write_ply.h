@@ -11,12 +11,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace mesh_files {
 
 /// Writes a binary PLY file with a label ("segment") for each face, and the colours.
+/// \param face_labels below 2^32
 inline void write_ply(Buffer& out, const Polygon_soup& soup, const Colors& colors,
                       const std::vector<std::size_t>& face_labels) {
   constexpr std::string_view color_properties = "\nproperty uchar red\nproperty uchar green\nproperty uchar blue";
@@ -54,8 +57,12 @@ inline void write_ply(Buffer& out, const Polygon_soup& soup, const Colors& color
   out.flush();
 }
 
+/// \throws Unwritable_file if a label is too large for the format
 inline void write_ply(Output& file, const Polygon_soup& soup, const Colors& colors,
                       const std::vector<std::size_t>& face_labels) {
+  for (const std::size_t label : face_labels)
+    if (label > std::numeric_limits<std::uint32_t>::max())
+      throw Unwritable_file(file.path() + ": the label " + std::to_string(label) + " is too large for this format");
   Buffer out(file);
   write_ply(out, soup, colors, face_labels);
 }
