@@ -3,7 +3,11 @@
 # The target RW_segmentation::compiled: what the library does that depends on no type of the user's, in one place instead
 # of in each program. Static or shared, by BUILD_SHARED_LIBS. Its parallel parts use TBB where that is found.
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
-add_library(RW_segmentation_compiled ${sources})
+set(type_of_library "")
+if(RW_SEGMENTATION_INSTALL AND NOT RW_SEGMENTATION_COMPILED)
+  set(type_of_library STATIC)  # the tool is installed without it then
+endif()
+add_library(RW_segmentation_compiled ${type_of_library} ${sources})
 add_library(RW_segmentation::compiled ALIAS RW_segmentation_compiled)
 set_target_properties(RW_segmentation_compiled PROPERTIES EXPORT_NAME compiled
   # Four files as two, which take about as long as each other: what takes long to parse is parsed once for both.

@@ -27,5 +27,15 @@ set(CPACK_COMPONENT_LIB_DESCRIPTION "Segmentation of surface meshes with random 
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME segment-mesh)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
+if(RW_SEGMENTATION_COMPILED AND BUILD_SHARED_LIBS)
+  # dpkg-shlibdeps knows nothing of a package that is being made.
+  set(library_package "${CPACK_DEBIAN_LIB_PACKAGE_NAME} (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
+  set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${library_package}")
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", ${library_package}")
+endif()
 set(CPACK_COMPONENT_TOOL_DESCRIPTION "Segmentation of surface meshes with random walks: the program segment_mesh")
+
+# A single component is one package of no name of its own to CPack unless it is told.
+get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
 include(CPack)

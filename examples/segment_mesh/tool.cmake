@@ -50,11 +50,17 @@ target_link_libraries(segment_mesh PRIVATE segment_mesh_work)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(segment_mesh PRIVATE $<$<CONFIG:Release>:-O1>)
 endif()
+set(library_folders "")  # seen from where the tool is installed
+if(BUILD_SHARED_LIBS)
+  list(APPEND library_folders "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()
 if(TARGET segment_mesh_cad)
   add_dependencies(segment_mesh segment_mesh_cad)
   set(cad_library_dir ${CMAKE_INSTALL_LIBDIR}/RW_segmentation)
-  set_target_properties(segment_mesh PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN/../${cad_library_dir}")
+  list(APPEND library_folders "$ORIGIN/../${cad_library_dir}")
+  set_target_properties(segment_mesh PROPERTIES BUILD_RPATH "$ORIGIN")
 endif()
+set_target_properties(segment_mesh PROPERTIES INSTALL_RPATH "${library_folders}")
 
 # The page that `segment_mesh --html` fills in, once it is built, see browser/README.md.
 if(NOT CMAKE_SOURCE_DIR STREQUAL CMAKE_CURRENT_SOURCE_DIR)
