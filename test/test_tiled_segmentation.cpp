@@ -693,7 +693,11 @@ TEST(TiledSegmentation, NoiseOfALargeTileIsThatOfAllOfItsFaces) {
   EXPECT_NE(noises[0].turns, turns);
   EXPECT_NEAR(noise_of_tiles(noises).turn, of_all, 0.05 * of_all);
   // It weighs as much as all faces would, but for what rounding takes of each count.
-  const auto sum = [](const auto& counts) { return std::accumulate(counts.begin(), counts.end(), std::uint64_t(0)); };
+  const auto sum = [](const internal::Turn_histogram::Counts& counts) {
+    std::uint64_t total = 0;
+    for (const auto& [bin, in_bin] : counts) total += in_bin;
+    return total;
+  };
   EXPECT_LE(sum(noises[0].turns), sum(turns));
   EXPECT_GE(sum(noises[0].turns) + turns.size(), sum(turns));
 }
@@ -862,6 +866,7 @@ TEST(TurnHistogram, KeepsMedianAndMeansWithinItsSteps) {
   EXPECT_NEAR(Histogram::median(sum), turns[1000], Histogram::step * turns[1000]);
   const double mean = std::accumulate(turns.begin(), turns.end(), 0.) / static_cast<double>(turns.size());
   EXPECT_NEAR(Histogram::mean(sum, [](double t) { return t; }), mean, 1e-3 * mean);
+  EXPECT_EQ(Histogram::counts({0.1, 0.5, 0.1}).size(), 2U);  // no more than it has to hold
   EXPECT_EQ(Histogram::median({}), 0);
   EXPECT_EQ(Histogram::median(Histogram::counts({0, 0, 1e-9})), 0);
 }

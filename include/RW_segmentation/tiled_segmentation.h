@@ -11,6 +11,7 @@
 #include <RW_segmentation/Walk_reduction.h>
 #include <RW_segmentation/internal/merging/Region_merging.h>
 #include <RW_segmentation/internal/threads.h>
+#include <RW_segmentation/internal/tiles/Turn_histogram.h>
 #include <RW_segmentation/local_thickness.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 #include <RW_segmentation/tile_plan.h>
@@ -98,8 +99,8 @@ struct Tile_border {
 /// How far smoothing turns the normals of a tile: counts, from which medians over all tiles are taken. Those of patches are
 /// scaled up, so that each tile weighs as much as its faces.
 struct Tile_noise {
-  std::vector<std::uint64_t> turns;           ///< see `internal::Turn_histogram`
-  std::vector<std::uint64_t> smoother_turns;  ///< likewise, of the smoothed mesh, where there is heavy noise
+  internal::Turn_histogram::Counts turns;           ///< by size
+  internal::Turn_histogram::Counts smoother_turns;  ///< likewise, of the smoothed mesh, where there is heavy noise
 };
 
 namespace internal {
@@ -122,10 +123,10 @@ struct Side_value {
 /// one.
 struct Turn_sums {
   double edges = 0, length = 0;
-  double turn = 0;                    ///< inward
-  double seeded_turn = 0;             ///< weighted as in `seeded_concavity()`
-  std::vector<std::uint64_t> counts;  ///< of the inward turns, see `Turn_histogram`
-  std::size_t walls = 0;              ///< edges that are
+  double turn = 0;                ///< inward
+  double seeded_turn = 0;         ///< weighted as in `seeded_concavity()`
+  Turn_histogram::Counts counts;  ///< of the inward turns
+  std::size_t walls = 0;          ///< edges that are
 };
 
 }  // namespace internal

@@ -300,6 +300,12 @@ inline void transfer(segment_mesh::Step_reader& reader, Face_corners& faces) {
 }
 
 template <class Archive>
+void transfer(Archive& a, Turn_histogram::Count& x) {
+  a(x.bin);
+  a(x.turns);
+}
+
+template <class Archive>
 void transfer(Archive& a, Noise_of_mesh& x) {
   a(x.turn);
   a(x.smoother_turn);
