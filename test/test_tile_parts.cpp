@@ -83,6 +83,39 @@ Tile_parts parts_of(const std::vector<Tile>& tiles, bool by_component = true) {
 
 }  // namespace
 
+// ---- Borders ----
+
+TEST(BordersOfTiles, RefuseATolerancePastTheirEdges) {
+  const Cut_mesh mesh = octants(meshes::sphere(2));  // whose edges are .27 long at least
+  std::vector<Tile_survey> surveys;
+  for (const Tile& tile : mesh.tiles) surveys.push_back(survey_tile(tile));
+  for (const double tolerance : {0.1, 0.4}) {
+    const Tile_plan plan = plan_tiles(surveys, tolerance);
+    for (std::size_t t = 0; t < mesh.tiles.size(); ++t) {
+      Tile_noise noise;
+      Tile_neighbourhoods neighbourhoods;
+      const auto for_walks = [&] { border_of_tile(mesh.tiles[t], {t, plan}, noise); };
+      const auto for_surfaces = [&] { border_of_tile(mesh.tiles[t], {t, plan}, neighbourhoods, Tiled_surfaces()); };
+      if (tolerance < 0.2) {
+        EXPECT_NO_THROW(for_walks());
+        EXPECT_NO_THROW(for_surfaces());
+      } else {
+        EXPECT_THROW(for_walks(), std::invalid_argument);
+        EXPECT_THROW(for_surfaces(), std::invalid_argument);
+      }
+    }
+  }
+}
+
+TEST(BordersOfTiles, MayHaveFacesWithTwoCornersInOnePlace) {
+  const Tile tile = as_tile({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{0, 1, 2}, {1, 3, 2}}});
+  const Tile other = as_tile({{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  const Tile_plan plan = plan_tiles({survey_tile(tile), survey_tile(other)});
+  EXPECT_EQ(plan.tiles[0].neighbours.size(), 1U);
+  Tile_noise noise;
+  EXPECT_NO_THROW(border_of_tile(tile, {0, plan}, noise));
+}
+
 // ---- Pieces ----
 
 TEST(ConnectedPieces, AreFacesOfATileWithTheirVerticesIdsAndWalls) {

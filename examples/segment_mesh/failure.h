@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,7 +33,14 @@ struct Outcome {
 };
 
 /// An error of the library, which knows nothing of options.
-inline std::string in_words_of_options(std::string message) {
+inline std::string in_words_of_options(std::string message, const Options& options) {
+  const std::string tolerance = "the tolerance ";
+  if (options.tolerance && message.compare(0, tolerance.size(), tolerance) == 0) {
+    std::ostringstream words;
+    words << "--tolerance " << *options.tolerance << ' ' << message.substr(tolerance.size())
+          << ": it is larger than edges at the border";
+    return words.str();
+  }
   for (const auto& [words, option] :
        {std::pair<std::string, const char*>("the number of segments is ", "--segments is "),
         {"the number of seeds is ", "--seeds is "},
@@ -52,7 +60,7 @@ inline Outcome failure(const std::string& mesh, const Options& options) {
   } catch (const Argument_out_of_range& error) {
     return {wrong_argument, error.what()};
   } catch (const std::invalid_argument& error) {
-    return {wrong_argument, mesh + ": " + in_words_of_options(error.what())};
+    return {wrong_argument, mesh + ": " + in_words_of_options(error.what(), options)};
   } catch (const mesh_files::Unwritable_file& error) {
     return {unwritable_output, error.what()};
   } catch (const Unsound_shape& error) {

@@ -263,7 +263,9 @@ Tile_walk walk_over_tiles(const Tile_plan& plan, const Tile_seeds& seeds, const 
 /// of 250 000 faces together, spread over it, of a larger one.
 /// \param[out] noise what `noise_of_tiles()` needs
 /// Complexity: linear, beside that of `smoothed_face_normals()` for so many faces.
-/// \throws std::invalid_argument, Cancelled
+/// \throws std::invalid_argument if the plan makes one vertex of two corners of a face that lie apart, as a tolerance does
+/// that is larger than edges at the border
+/// \throws Cancelled
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_noise& noise,
                            const Tiled_segmentation& options = {}, const Progress& progress = {}) {

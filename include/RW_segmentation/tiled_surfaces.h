@@ -119,7 +119,8 @@ std::vector<Dual_mesh::Index> surfaces_of_tile(const Tile& tile, const Tile_in_p
 /// Takes what neighbours must see of a tile, and what tells how noisy the whole is.
 /// \param[out] neighbourhoods what `noise_of_tiles()` needs
 /// Complexity: linear.
-/// \throws std::invalid_argument if a number of the options is not finite, or the halo is negative
+/// \throws std::invalid_argument if a number of the options is not finite, the halo is negative, or the plan makes one vertex
+/// of two corners of a face that lie apart, as a tolerance does that is larger than edges at the border
 /// \throws Cancelled
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
 Tile_border border_of_tile(const Tile& tile, const Tile_in_plan& place, Tile_neighbourhoods& neighbourhoods,

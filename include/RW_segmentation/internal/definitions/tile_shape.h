@@ -22,6 +22,8 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <sstream>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -134,6 +136,26 @@ inline std::vector<Dual_mesh::Index> ids_of_vertices(const Dual_mesh& mesh,
   return id;
 }
 
+/// Refuses a face of which two corners in different places are the same vertex to all tiles.
+/// \throws std::invalid_argument
+inline void check_corners_are_different(const Tile& tile, const std::vector<Tile_plan::Shared_vertex>& shared) {
+  std::vector<Dual_mesh::Index> id(tile.points.size(), Tile_border::none);
+  for (const auto& [vertex, number] : shared) id[vertex] = number;
+  for (Dual_mesh::Index f = 0; f < tile.number_of_faces(); ++f) {
+    const auto corners = tile.corners[f];
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (std::size_t j = i + 1; j < corners.size() && id[corners[i]] != Tile_border::none; ++j) {
+        const Eigen::Vector3d &p = tile.points[corners[i]], &q = tile.points[corners[j]];
+        if (id[corners[i]] != id[corners[j]] || p == q) continue;
+        std::ostringstream message;
+        message << (tile.vertex_ids.empty() ? "the tolerance makes" : "equal ids make")
+                << " one vertex of the corners (" << p[0] << ", " << p[1] << ", " << p[2] << ") and (" << q[0] << ", "
+                << q[1] << ", " << q[2] << ") of a face";
+        throw std::invalid_argument(message.str());
+      }
+  }
+}
+
 /// The faces of a tile up to a distance, the width of the border, from some faces, and the walls between them.
 /// \param id by vertex
 inline void take_border(const Dual_mesh& mesh, const std::vector<Dual_mesh::Index>& sources,
@@ -180,6 +202,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
                                                             Tile_noise& noise, const Tiled_segmentation& options,
                                                             const Progress& progress) {
   const auto& [number, plan] = place;
+  internal::check_corners_are_different(tile, plan.tiles[number].shared_vertices);
   const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), {});
   Tile_border border;
   double widening = 1;

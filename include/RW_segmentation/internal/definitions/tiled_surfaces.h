@@ -111,6 +111,7 @@ RW_SEGMENTATION_INLINE Tile_border internal::border_of_tile(const Tile& tile, co
   if (!(options.halo >= 0) || !std::isfinite(options.halo))
     throw internal::argument_error("halo", options.halo, "a finite number >= 0");
   const auto& [number, plan] = place;
+  internal::check_corners_are_different(tile, plan.tiles[number].shared_vertices);
   const Dual_mesh mesh = internal::part_of(plan, tile.corners, internal::points_in_box(tile, plan.box), {});
   neighbourhoods = internal::neighbourhoods_in(mesh, place);
   Tile_border border;
