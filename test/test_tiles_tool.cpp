@@ -46,6 +46,20 @@ bool is_of_each_tile(const std::string& step) {
          0;
 }
 
+/// An OFF file.
+std::string off_of(const meshes::Shape& shape) {
+  std::ostringstream off;
+  off.precision(17);
+  off << "OFF\n" << shape.points.size() << ' ' << shape.faces.size() << " 0\n";
+  for (const Eigen::Vector3d& point : shape.points) off << point.transpose() << '\n';
+  for (const auto& face : shape.faces) {
+    off << face.size();
+    for (const auto v : face) off << ' ' << v;
+    off << '\n';
+  }
+  return off.str();
+}
+
 /// Four tiles of a dumbbell: quarters round its axis.
 class Tiles : public Segment_mesh_tool {
  protected:
@@ -266,6 +280,21 @@ TEST_F(Tiles, OfWhichOneCannotBeReadAreToldByTheStepThatReports) {
   EXPECT_EQ(Json::parse(content_of(path("report.json")))["tiles"], 4);
 }
 
+TEST_F(Tiles, OfWhichNoneCanBeReadFailStepByStepAsInOneCall) {
+  for (std::size_t t = 0; t < 4; ++t) write(name(t), "nothing");
+  const Result in_one_call = run(command({"--quiet"}));
+  EXPECT_EQ(in_one_call.exit_code, 2);
+  Result last;
+  for (const std::string step : step_names)
+    for (std::size_t t = 0; t < (is_of_each_tile(step) ? 4 : 1); ++t) {
+      std::vector<std::string> more = {"--quiet", "--tile-folder", "work", "--tile-step", step};
+      if (is_of_each_tile(step)) more.insert(more.end(), {"--tile", std::to_string(t)});
+      last = run(command(more));
+    }
+  EXPECT_EQ(last.exit_code, 2);
+  EXPECT_EQ(last.errors, in_one_call.errors);
+}
+
 TEST_F(Tiles, RefuseOutputsThatCannotBeWrittenBeforeTheWork) {
   expect_failure(5, "there is no such folder", command({"--tile-folder", "work", "--report", "none/report.json"}));
   expect_failure(5, "there is no such folder",
@@ -323,6 +352,150 @@ TEST_F(Tiles, ThatCouldNotBeReadAreReadAgain) {
   fs::last_write_time(path(name(1)), time);
   EXPECT_EQ(run(command({"--quiet", "--tile-folder", "work"})).exit_code, 0);
   EXPECT_EQ(labels("tile_1.seg").size(), faces_[1]);
+}
+
+TEST_F(Tiles, HaveTheirPartsWrittenAgainInTheSameFolders) {
+  const auto parts_of = [&](std::size_t tile) {
+    std::set<std::string> parts;
+    for (const auto& entry : fs::directory_iterator(path("parts_tile_" + std::to_string(tile))))
+      parts.insert(entry.path().filename().string());
+    return parts;
+  };
+  const std::vector<std::string> split = {"--split", "parts_%", "--segments"};
+  const auto with = [&](const char* segments, const char* folder) {
+    std::vector<std::string> more = split;
+    more.insert(more.end(), {segments, "--tile-folder", folder});
+    return command(more);
+  };
+  ASSERT_EQ(run(with("5", "work")).exit_code, 0);
+  write("parts_tile_0/segment_7.ply.part123", "of a worker that was killed");
+  fs::remove(path("work/labels_0"));
+  const Result result = run(with("2", "work"));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto all = take_labels();
+  for (std::size_t t = 0; t < 4; ++t) {
+    std::set<std::string> parts;
+    for (const std::size_t label : all[t]) parts.insert("segment_" + std::to_string(label) + ".ply");
+    EXPECT_EQ(parts_of(t), parts);
+  }
+
+  // What is not of this work stays.
+  expect_failure(5, "the folder is not empty", with("2", "other_work"));
+  write("parts_tile_1/segment_mine.ply", "");
+  expect_failure(5, "parts_tile_1: the folder is not empty", with("2", "work"));
+}
+
+TEST_F(Tiles, RefuseLaterStepsWithOtherSegmentsThanTheMergedOnes) {
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--segments", "2"})).exit_code, 0);
+  take_labels();
+  const std::vector<std::string> labels = {"--tile-folder", "work", "--tile-step", "labels", "--tile", "0"};
+  const auto with = [](std::vector<std::string> options, const std::vector<std::string>& more) {
+    options.insert(options.end(), more.begin(), more.end());
+    return options;
+  };
+  expect_failure(3, "another --segments", command(labels));
+  expect_failure(3, "another --segments", command(with(labels, {"--segments", "3"})));
+  expect_failure(3, "another --segments",
+                 command({"--tile-folder", "work", "--tile-step", "report", "--segments", "3"}));
+  EXPECT_EQ(run(command(with(labels, {"--segments", "2"}))).exit_code, 0);
+
+  // Other segments take the steps after them.
+  ASSERT_EQ(run(command({"--tile-folder", "work", "--tile-step", "merge", "--segments", "3"})).exit_code, 0);
+  expect_failure(2, "tile_0.off: work/labels_0",
+                 command({"--tile-folder", "work", "--tile-step", "report", "--segments", "3"}));
+  EXPECT_EQ(run(command(with(labels, {"--segments", "3"}))).exit_code, 0);
+}
+
+TEST_F(Tiles, AreNamedWhereTheWorkOnThemFails) {
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  for (const char* file : {"shape_1", "outline_2", "network_3", "fragments_0"})
+    write(std::string("work/") + file, "nothing");
+  expect_failure(2, "tile_1.off: work/shape_1: the file ends too early",
+                 command({"--tile-folder", "work", "--tile-step", "clusters", "--tile", "1"}));
+  expect_failure(2, "tile_2.off: work/outline_2", command({"--tile-folder", "work", "--tile-step", "seeds"}));
+  expect_failure(2, "tile_3.off: work/network_3", command({"--tile-folder", "work", "--tile-step", "walk"}));
+  expect_failure(2, "tile_0.off: work/fragments_0",
+                 command({"--tile-folder", "work", "--tile-step", "labels", "--tile", "0"}));
+  fs::remove(path("work/plan"));
+  fs::remove(path("work/parts"));
+  expect_failure(2, "tile_2.off: work/parts",
+                 command({"--tile-folder", "work", "--tile-step", "border", "--tile", "2"}));
+  write("0.walls", "0 1\n");
+  fs::rename(path(name(0)), path("0.off"));
+  fs::rename(path(name(1)), path("1.off"));
+  const Result without_walls = run({"0.off", "1.off", "--tiled", "--constraints", "%.walls", "--labels", "%.seg"});
+  EXPECT_EQ(without_walls.exit_code, 6);
+  EXPECT_NE(without_walls.errors.find("1.off: 1.walls: "), std::string::npos) << without_walls.errors;
+}
+
+TEST_F(Tiles, RefuseATolerancePastTheEdgesOfABorder) {
+  for (const std::vector<std::string>& method : {std::vector<std::string>{}, {"--engineering"}}) {
+    std::vector<std::string> more = {"--tolerance", "0.5"};
+    more.insert(more.end(), method.begin(), method.end());
+    const Result result = run(command(more));
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(result.errors.find("segment_mesh: tile_"), 0U) << result.errors;
+    EXPECT_NE(result.errors.find(".off: --tolerance 0.5 makes one vertex of"), std::string::npos) << result.errors;
+    for (std::size_t t = 0; t < 4; ++t) EXPECT_FALSE(fs::exists(path("tile_" + std::to_string(t) + ".seg")));
+  }
+  EXPECT_EQ(run(command({"--tolerance", "0.01"})).exit_code, 0);
+}
+
+TEST_F(Tiles, ThatOverlapAreNamed) {
+  const meshes::Shape ball = meshes::sphere(3);
+  const auto write_part = [&](const std::string& name, const auto& is_in_it) {
+    meshes::Shape part = ball;
+    part.faces.clear();
+    for (std::size_t f = 0; f < ball.faces.size(); ++f)
+      if (is_in_it(middle_of(ball, f).z())) part.faces.push_back(ball.faces[f]);
+    write(name, off_of(part));
+  };
+  write_part("low.off", [](double z) { return z < 0.1; });
+  write_part("high.off", [](double z) { return z > -0.1; });
+  write_part("cap.off", [](double z) { return z > 0.1; });
+  const Result result = run({"low.off", "high.off", "--tiled", "--labels", "%.seg", "--report", "report.json"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.errors.find("low.off and high.off have faces in common"), std::string::npos) << result.errors;
+  EXPECT_EQ(Json::parse(content_of(path("report.json")))["overlaps"],
+            Json::array({Json::array({"low.off", "high.off"})}));
+  EXPECT_EQ(run({"low.off", "cap.off", "--tiled", "--labels", "%.seg"}).errors, "");
+
+  // Solids whose sides touch have no faces in common.
+  write("left.off", off_of(meshes::cube(2)));
+  write("right.off", off_of(meshes::moved(meshes::cube(2), {1, 0, 0})));
+  EXPECT_EQ(run({"left.off", "right.off", "--tiled", "--labels", "%.seg"}).errors, "");
+}
+
+TEST_F(Tiles, ThatNowhereMeetAreTold) {
+  constexpr const char* remark = "no tile meets another one";
+  EXPECT_EQ(run(command({"--segments", "2"})).errors, "");
+  for (std::size_t t = 0; t < 4; ++t) {
+    std::istringstream off(content_of(path(name(t))));
+    std::ostringstream moved;  // by some millionths, as coordinates are that were written in other precisions
+    moved.precision(17);
+    std::string line;
+    for (std::size_t number = 0; std::getline(off, line); ++number) {
+      double x = 0, y = 0, z = 0;
+      std::istringstream numbers(line);
+      if (number >= 2 && number < 2 + vertex_number_[t].size() && numbers >> x >> y >> z)
+        moved << x + 1e-6 * static_cast<double>(t) << ' ' << y << ' ' << z << '\n';
+      else
+        moved << line << '\n';
+    }
+    write(name(t), moved.str());
+  }
+  const Result result = run(command({"--segments", "4"}));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.errors.find(remark), std::string::npos) << result.errors;
+  EXPECT_EQ(run(command({"--segments", "2", "--tolerance", "1e-5"})).errors, "");
+}
+
+TEST_F(Tiles, TellWhatIsOddAboutTheirFiles) {
+  write("cut_off.stl",
+        "solid\nfacet normal 0 0 1\nouter loop\nvertex 9 0 0\nvertex 9 1 0\nvertex 9 0 1\nendloop\nendfacet\n");
+  const Result result = run({"cut_off.stl", name(0), "--tiled", "--labels", "%.seg"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.errors.find("cut_off.stl: the file ends without"), std::string::npos) << result.errors;
 }
 
 TEST_F(Tiles, FromSeedsHaveTheirLabels) {

@@ -118,7 +118,7 @@ class Surface_steps {
     segments.turned_sides = turned_sides;
     segments.walls = walls;
     folder_.write("surfaces", surfaces_in_words(parts, noise, surfaces, segments));
-    folder_.write("segments", segments);
+    folder_.write("segments", segments, merging_in_words(options_));
   }
 
   /// What the report tells of the surfaces.

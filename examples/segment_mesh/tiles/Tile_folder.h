@@ -20,9 +20,10 @@ namespace RW = RW_segmentation;
 /// The folder in which steps leave what later ones need: files of single tiles, and of all.
 class Tile_folder {
  public:
-  Tile_folder(std::string path, std::size_t tiles) : path_(std::move(path)), tiles_(tiles) {}
+  /// \param tiles their names, for messages
+  Tile_folder(std::string path, std::vector<std::string> tiles) : path_(std::move(path)), tiles_(std::move(tiles)) {}
 
-  std::size_t number_of_tiles() const { return tiles_; }
+  std::size_t number_of_tiles() const { return tiles_.size(); }
   std::string path(const std::string& file) const { return path_ + "/" + file; }
   std::string path(const std::string& file, std::size_t tile) const { return path(file) + "_" + std::to_string(tile); }
 
@@ -42,7 +43,11 @@ class Tile_folder {
   }
   template <class... Values>
   void read_of_tile_into(std::size_t tile, const char* file, Values&... values) const {
-    read_step(path(file, tile), file, values...);
+    try {
+      read_step(path(file, tile), file, values...);
+    } catch (const mesh_files::Unreadable_file& error) {
+      throw mesh_files::Unreadable_file(tiles_[tile] + ": " + error.what());
+    }
   }
 
   template <class Value>
@@ -60,7 +65,7 @@ class Tile_folder {
   template <class Value>
   std::vector<Value> read_all(const char* file) const {
     std::vector<Value> values;
-    for (std::size_t t = 0; t < tiles_; ++t) values.push_back(read<Value>(file, t));
+    for (std::size_t t = 0; t < tiles_.size(); ++t) values.push_back(read<Value>(file, t));
     return values;
   }
   template <class Value>
@@ -121,7 +126,7 @@ class Tile_folder {
 
  private:
   std::string path_;
-  std::size_t tiles_;
+  std::vector<std::string> tiles_;
 };
 
 }  // namespace segment_mesh

@@ -3,6 +3,8 @@
 #ifndef SEGMENT_MESH_TILES_TILE_SEGMENTS_H
 #define SEGMENT_MESH_TILES_TILE_SEGMENTS_H
 
+#include "../Options.h"
+#include "../report.h"
 #include "../segment_colors.h"
 #include "Tile_folder.h"
 
@@ -13,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -62,6 +65,16 @@ void transfer(Archive& a, Tile_segments& x) {
   a(x.components);
   a(x.turned_sides);
   a(x.walls);
+}
+
+/// What the steps from `merge` on depend on, in words.
+inline std::string merging_in_words(const Options& options) {
+  const auto value = [](const auto& given) { return given ? Json(*given) : Json(nullptr); };
+  return Json({{"segments", value(options.segments)},
+               {"regular", options.is_regular},
+               {"regular_length", value(options.regular_length)},
+               {"regular_angle", value(options.regular_angle)}})
+      .dump();
 }
 
 /// The segments at a level of a tree.

@@ -15,19 +15,23 @@
 #include "../signals.h"
 #include "../treat_boundaries.h"
 #include "../walls.h"
+#include "Face_sample.h"
 #include "Surface_steps.h"
 #include "Tile_folder.h"
 #include "Tile_segments.h"
 #include "Tile_step.h"
 #include "Walk_steps.h"
 
+#include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/tiled_boundaries.h>
 #include <RW_segmentation/tiled_segmentation.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -44,7 +48,7 @@ class Tile_steps {
   Tile_steps(const std::vector<Task>& tiles, const Options& options, std::string folder)
       : tasks_(tiles),
         options_(options),
-        folder_(std::move(folder), tiles.size()),
+        folder_(std::move(folder), names_of(tiles)),
         walk_(folder_, options),
         surfaces_(folder_, options) {
     steps_ = {{"survey", true, {"connected", "file_faces", "survey"}, [this](std::size_t tile) { survey(tile); }},
@@ -73,6 +77,24 @@ class Tile_steps {
 
   std::size_t number_of_tiles() const { return tasks_.size(); }
 
+  const std::string& name_of(std::size_t tile) const { return tasks_[tile].mesh; }
+
+  /// Whether the parts of a tile are in the folder of `--split` and nothing else is: from a call that is gone on with.
+  bool has_left_parts(std::size_t tile) const {
+    namespace fs = std::filesystem;
+    const std::string& parts = tasks_[tile].files.split;
+    if (!fs::exists(folder_.path(parts_file, tile))) return false;
+    std::string path;
+    folder_.read_of_tile_into(tile, parts_file, path);
+    const auto is_part = [](const fs::path& file) {
+      const std::string name = file.filename().string(), first = mesh_files::name_of_segment(0);
+      const std::size_t number = first.size() - 1, behind = name.find_first_not_of("0123456789", number);
+      const bool has_number = behind != std::string::npos && behind > number;
+      return name.compare(0, number, first, 0, number) == 0 && has_number && name[behind] == '.';
+    };
+    return path == path_of_parts(tile) && std::all_of(fs::directory_iterator(parts), fs::directory_iterator(), is_part);
+  }
+
   /// All files that steps leave.
   std::vector<std::string> files() const {
     std::vector<std::string> files;
@@ -80,6 +102,8 @@ class Tile_steps {
       for (const char* file : step.files)
         for (std::size_t t = 0; t < (step.is_of_each_tile ? tasks_.size() : 1); ++t)
           files.push_back(path(step, file, t));
+    for (std::size_t t = 0; t < tasks_.size(); ++t)
+      if (!tasks_[t].files.split.empty()) files.push_back(folder_.path(parts_file, t));
     return files;
   }
 
@@ -142,6 +166,13 @@ class Tile_steps {
 
  private:
   using Index = RW::Dual_mesh::Index;
+  using Sides = std::vector<std::array<Index, 2>>;  // by their vertices
+
+  static std::vector<std::string> names_of(const std::vector<Task>& tiles) {
+    std::vector<std::string> names;
+    for (const Task& tile : tiles) names.push_back(tile.mesh);
+    return names;
+  }
 
   double tolerance() const { return options_.tolerance.value_or(0); }
 
@@ -153,6 +184,24 @@ class Tile_steps {
 
   /// The segment that has a label.
   std::size_t segment_of(std::size_t label) const { return options_.is_engineering ? label : walk_.segment_of(label); }
+
+  static constexpr const char* parts_file = "parts_of_tile";  // tells in which folder the parts of a tile are
+
+  std::string path_of_parts(std::size_t tile) const {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(tasks_[tile].files.split)).string();
+  }
+
+  /// Removes the parts of a tile that have been left in the folder of `--split`.
+  void make_place_for_parts(std::size_t tile) const {
+    namespace fs = std::filesystem;
+    const std::string& parts = tasks_[tile].files.split;
+    std::error_code error;  // it is not there
+    if (parts.empty() || (!fs::is_empty(parts, error) && !error && !has_left_parts(tile))) return;
+    if (!error)
+      for (const fs::path& part : std::vector<fs::path>(fs::directory_iterator(parts), fs::directory_iterator()))
+        fs::remove(part);
+    folder_.write_of_tile(tile, parts_file, path_of_parts(tile));
+  }
 
   std::string path(const Tile_step& step, const char* file, std::size_t tile) const {
     return step.is_of_each_tile ? folder_.path(file, tile) : folder_.path(file);
@@ -217,11 +266,16 @@ class Tile_steps {
       left_out = faces_left_out(input);
       arrays = std::move(tile_of_mesh);
       if (!options_.is_quiet)
-        for (const std::string& remark : input.remarks) say(tasks_[tile].mesh + ": " + remark);
+        for (const auto& remarks : {soup.remarks, input.remarks})
+          for (const std::string& remark : remarks) say(tasks_[tile].mesh + ": " + remark);
     } catch (const mesh_files::Unreadable_file& error) {
       failure = error.what();  // leaves the other tiles their segments
+      if (failure.find(tasks_[tile].mesh) == std::string::npos) failure = tasks_[tile].mesh + ": " + failure;
     }
     const RW::Tile_survey survey = RW::survey_tile(arrays);
+    const std::vector<std::uint64_t> sample = face_sample(arrays);
+    Sides border;  // which no step asks for where vertices are the same in the same place alone
+    if (tolerance() > 0) border = RW::internal::Joined_faces(arrays.corners, arrays.points.size()).open_ends;
     std::vector<RW::Tile_piece> pieces;
     if (is_parted())
       pieces = RW::connected_pieces(std::move(arrays));
@@ -232,18 +286,59 @@ class Tile_steps {
       of_pieces.push_back(pieces.size() == 1 ? survey : RW::survey_tile(piece.tile));
     folder_.write_of_tile(tile, "connected", pieces);
     folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
-    folder_.write_of_tile(tile, "survey", failure, sources, survey, of_pieces);
+    folder_.write_of_tile(tile, "survey", failure, sources, survey, of_pieces, sample, border);
   }
 
   void plan() const {
     std::vector<RW::Tile_survey> surveys(tasks_.size());
     std::vector<std::vector<RW::Tile_survey>> of_pieces(tasks_.size());
+    std::vector<std::vector<std::uint64_t>> samples(tasks_.size());
+    std::vector<Sides> borders(tasks_.size());
     for (std::size_t t = 0; t < tasks_.size(); ++t) {
       std::string failure, sources;
-      folder_.read_of_tile_into(t, "survey", failure, sources, surveys[t], of_pieces[t]);
+      folder_.read_of_tile_into(t, "survey", failure, sources, surveys[t], of_pieces[t], samples[t], borders[t]);
     }
+    const RW::Tile_plan plan = RW::plan_tiles(surveys, tolerance());
+    for (std::size_t t = 0; t < tasks_.size(); ++t) check_tolerance(t, surveys[t], plan, borders[t]);
     folder_.write("parts", RW::parts_of_tiles(of_pieces, tolerance(), is_parted()));
-    folder_.write("plan", RW::plan_tiles(surveys, tolerance()));
+    folder_.write("plan", plan, overlapping_tiles(samples), char(are_apart(surveys, plan)));
+  }
+
+  /// \param border the sides of the tile there
+  /// \throws Argument_out_of_range if the ends of one of them, which lie apart, are the same vertex
+  void check_tolerance(std::size_t tile, const RW::Tile_survey& survey, const RW::Tile_plan& plan,
+                       const Sides& border) const {
+    const std::vector<Index>& vertices = survey.border_vertices;  // rising
+    std::vector<Index> id(vertices.size(), RW::Tile_border::none);
+    const auto place_of = [&](Index vertex) {
+      return static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+    };
+    for (const auto& [vertex, number] : plan.tiles[tile].shared_vertices) id[place_of(vertex)] = number;
+    for (const auto& [from, to] : border) {
+      const std::size_t a = place_of(from), b = place_of(to);
+      const Eigen::Vector3d &p = survey.border_points[a], &q = survey.border_points[b];
+      if (id[a] == RW::Tile_border::none || id[a] != id[b] || p == q) continue;
+      std::ostringstream message;
+      message << tasks_[tile].mesh << ": --tolerance " << tolerance() << " makes one vertex of (" << p[0] << ", "
+              << p[1] << ", " << p[2] << ") and (" << q[0] << ", " << q[1] << ", " << q[2]
+              << "), the ends of an edge at the border: give a smaller one";
+      throw Argument_out_of_range(message.str());
+    }
+  }
+
+  /// Whether no tile meets another one, though open ones lie beside each other.
+  static bool are_apart(const std::vector<RW::Tile_survey>& surveys, const RW::Tile_plan& plan) {
+    constexpr double largest_gap = 1e-3;  // of the whole: coordinates of tiles are off by less
+    for (const auto& tile : plan.tiles)
+      if (!tile.neighbours.empty()) return false;
+    const Eigen::Vector3d gap = Eigen::Vector3d::Constant(largest_gap * plan.box.unit);
+    for (std::size_t t = 0; t < surveys.size(); ++t)
+      for (std::size_t other = 0; other < t; ++other) {
+        const bool are_open = !surveys[t].border_points.empty() && !surveys[other].border_points.empty();
+        const Eigen::AlignedBox3d &a = surveys[t].box, &b = surveys[other].box;
+        if (are_open && Eigen::AlignedBox3d(a.min() - gap, a.max() + gap).intersects(b)) return true;
+      }
+    return false;
   }
 
   /// The walls of a tile, sharp edges included.
@@ -251,6 +346,19 @@ class Tile_steps {
     const Wall_map walls = named_walls(tile, soup, mesh);
     if (options_.constraints_angle) mark_sharp_edges(mesh, *options_.constraints_angle, walls);
     return walls;
+  }
+
+  /// What merging has left.
+  /// \throws Argument_out_of_range if it had other options
+  Tile_segments read_segments() const {
+    Tile_segments segments;
+    std::string words;
+    folder_.read_into("segments", segments, words);
+    if (words != merging_in_words(options_))
+      throw Argument_out_of_range(
+          folder_.path("segments") +
+          ": the step \"merge\" had another --segments or --regular: do it again, or give the same");
+    return segments;
   }
 
   /// The label of each face of a tile.
@@ -274,7 +382,7 @@ class Tile_steps {
       Oriented_mesh input = read_tile(tile, soup);
       const Wall_map walls = all_walls(tile, soup, input.mesh);
       const RW::Tile_of<Mesh> arrays(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
-      const std::vector<std::size_t> label = labels_of(tile, folder_.read<Tile_segments>("segments"));
+      const std::vector<std::size_t> label = labels_of(tile, read_segments());
       check_faces(tile, arrays.number_of_faces(), label.size());
       strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")}, label);
     }
@@ -344,9 +452,10 @@ class Tile_steps {
   }
 
   void labels(std::size_t tile) const {
-    const auto all = folder_.read<Tile_segments>("segments");
+    const auto all = read_segments();
     std::vector<std::uint64_t> faces_of_segment(all.area.size(), 0);
     if (failure_of(tile).empty()) {
+      make_place_for_parts(tile);
       Output_files files(tasks_[tile].files, options_);
       std::vector<Index> tile_faces;
       std::vector<std::size_t> left_out;
@@ -367,19 +476,26 @@ class Tile_steps {
   }
 
   void report() const {
-    const auto all = folder_.read<Tile_segments>("segments");
+    const auto all = read_segments();
     std::vector<std::uint64_t> faces(all.area.size(), 0);
     for (const auto& of_tile : folder_.read_all<std::vector<std::uint64_t>>("labels"))
       for (std::size_t s = 0; s < faces.size(); ++s) faces[s] += of_tile[s];
+    RW::Tile_plan plan;
+    std::vector<std::array<Index, 2>> overlaps;
+    char are_tiles_apart = 0;
+    folder_.read_into("plan", plan, overlaps, are_tiles_apart);
     Json report = {{"tiles", tasks_.size()},
-                   {"faces", folder_.read<RW::Tile_plan>("plan").faces},
+                   {"faces", plan.faces},
                    {"components", all.components},
                    {"fragments", all.of_fragment.size()},
+                   {"overlaps", Json::array()},
+                   {"tiles_apart", are_tiles_apart != 0},
                    {"turned_sides", all.turned_sides},
                    {"walls", all.walls},
                    {"segments", Json::array()},
                    {"failed", failures()},
                    {"version", version()}};
+    for (const auto& [a, b] : overlaps) report["overlaps"].push_back({tasks_[a].mesh, tasks_[b].mesh});
     for (std::size_t s = 0; s < faces.size(); ++s)
       report["segments"].push_back(
           {{"label", label_of(s)}, {"faces", faces[s]}, {"area_share", all.area[s]}, {"color", all.colors[s]}});

@@ -251,7 +251,7 @@ class Walk_steps {
       segments.turned_sides += seeds.turned_sides;
       segments.walls += seeds.walls;
     }
-    folder_.write("segments", segments);
+    folder_.write("segments", segments, merging_in_words(options_));
   }
 
   const Tile_folder& folder_;

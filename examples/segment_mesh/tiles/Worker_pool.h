@@ -32,10 +32,10 @@ namespace segment_mesh {
 
 /// What jobs have cost.
 struct Job_costs {
-  double seconds = 0;     ///< of processors, all jobs together
-  double megabytes = 0;   ///< of memory, the largest job
-  std::size_t again = 0;  ///< jobs that were lost and done once more
-  std::size_t lost = 0;   ///< jobs that were lost each time
+  double seconds = 0;             ///< of processors, all jobs together
+  double megabytes = 0;           ///< of memory, the largest job
+  std::size_t again = 0;          ///< jobs that were lost and done once more
+  std::vector<std::size_t> lost;  ///< jobs that were lost each time
 };
 
 /// Does jobs in processes of their own, several at a time. A job whose process is killed is done again.
@@ -65,7 +65,7 @@ class Worker_pool {
         waiting.push_back(ended.job);
         ++costs.again;
       } else if (ended.is_killed || ended.code != success) {
-        costs.lost += ended.is_killed;
+        if (ended.is_killed) costs.lost.push_back(ended.job);
         if (outcome == success) outcome = ended.is_killed ? failed_computation : ended.code;
       } else {
         show_done(++done);

@@ -135,19 +135,30 @@ void forget_old_work(const Tile_steps& steps, const Work_folder& folder) {
   folder.keep(seeds_file, steps.seeds_in_words());  // last: a call that is broken off before it begins anew
 }
 
+/// Forgets what has been left for other segments.
+void forget_steps_after(const Tile_steps& steps, const Tile_step& step) {
+  bool is_after = false;
+  for (const Tile_step& later : steps.all()) {
+    for (std::size_t t = 0; is_after && t < (later.is_of_each_tile ? steps.number_of_tiles() : 1); ++t)
+      steps.forget(later, t);
+    is_after = is_after || &later == &step;
+  }
+}
+
 /// Refuses outputs that cannot be written, before the work.
-void check_folders(const std::vector<Task>& tiles, const std::string& report) {
+void check_folders(const std::vector<Task>& tiles, const std::string& report, const Tile_steps& steps) {
   const auto check = [](const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     if (!folder.empty() && !fs::is_directory(folder))
       throw mesh_files::Unwritable_file(path + ": there is no such folder");
   };
-  for (const Task& tile : tiles) {
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const Task& tile = tiles[t];
     for (const auto& [option, path] : written_files(tile.files)) check(path);
     if (tile.files.split.empty()) continue;
     check(tile.files.split);
     std::error_code error;  // it is not there
-    if (!fs::is_empty(tile.files.split, error) && !error)
+    if (!fs::is_empty(tile.files.split, error) && !error && !steps.has_left_parts(t))
       throw mesh_files::Unwritable_file(tile.files.split + ": the folder is not empty");
   }
   if (!report.empty()) check(report);
@@ -165,15 +176,16 @@ void keep_freed_memory() {
 }
 
 /// Does a step in this process.
-Exit_code do_step(const Tile_step& step, std::size_t tile, const Options& options) {
+Exit_code do_step(const Tile_steps& steps, const Tile_step& step, std::size_t tile, const Options& options) {
   keep_freed_memory();
   try {
     step.run(tile);
     return success;
   } catch (const std::exception&) {
-    const Outcome outcome = failure("step " + std::string(step.name), options);
-    say(outcome.message);
-    return outcome.code;
+    auto [code, message] = failure("step " + std::string(step.name), options);
+    const bool is_tile_named = !step.is_of_each_tile || message.find(steps.name_of(tile)) != std::string::npos;
+    say(is_tile_named ? message : steps.name_of(tile) + ": " + message);
+    return code;
   }
 }
 
@@ -189,16 +201,15 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
     bar.start(step.name);
     Job_costs of_step;
     const Exit_code code = pool.run(
-        jobs, [&](std::size_t tile) { return do_step(step, tile, options); },
+        jobs, [&](std::size_t tile) { return do_step(steps, step, tile, options); },
         [&](std::size_t done) { bar.show(static_cast<double>(done) / static_cast<double>(jobs.size())); }, of_step);
     bar.clear();
     if (of_step.again > 0 && !options.is_quiet)
       say("step " + std::string(step.name) + ": " + counted(of_step.again, "job was lost", "jobs were lost") +
           " and done again");
-    if (of_step.lost > 0)
-      say("step " + std::string(step.name) + ": " +
-          counted(of_step.lost, "job was lost each time, as its worker was killed",
-                  "jobs were lost each time, as their workers were killed"));
+    for (const std::size_t lost : of_step.lost)
+      say((step.is_of_each_tile ? steps.name_of(lost) + ": " : "") + "step " + step.name +
+          ": the job was lost each time, as its worker was killed");
     if (code != success) return code;
     costs[step.name] = {{"jobs", jobs.size()}, {"seconds", of_step.seconds}, {"largest_job_mb", of_step.megabytes}};
     if (step.name == std::string("survey") && steps.failures().size() == steps.number_of_tiles()) {
@@ -221,12 +232,21 @@ Exit_code tell(const Json& report, const Options& options) {
     file.write(line_of(report));
     file.commit();
   }
-  if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet)
+  if (const Json& overlaps = report["overlaps"]; !overlaps.empty() && !options.is_quiet) {
+    const std::size_t others = overlaps.size() - 1;
+    say(overlaps[0][0].get<std::string>() + " and " + overlaps[0][1].get<std::string>() +
+        (others > 0 ? " and " + counted(others, "other pair") + " of tiles" : "") +
+        " have faces in common: tiles must not overlap, and no segment goes on there");
+  } else if (report["turned_sides"].get<std::size_t>() > 0 && !options.is_quiet) {
     say("some tiles are not oriented alike where they meet, and no segment goes on there");
+  } else if (report["tiles_apart"].get<bool>() && !options.is_quiet) {
+    say("no tile meets another one: the vertices on their borders are not in the same places (see --tolerance)");
+  }
   if (const auto components = report.value("unseeded_components", std::size_t(0)); components > 0 && !options.is_quiet)
     say(counted(components, "component") + " without a seed, each a segment of its own");
   for (const Json& failed : report["failed"]) say(failed.get<std::string>());
   if (report["failed"].empty()) return success;
+  if (report["failed"].size() == report["tiles"]) return unreadable_input;
   say(std::to_string(report["failed"].size()) + " of " + counted(report["tiles"].get<std::size_t>(), "tile") +
       " could not be read; the others have their segments");
   return some_meshes_failed;
@@ -242,7 +262,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   const Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
   check_outputs(tiles, path_of_report(options), steps, folder.path());
-  if (options.tile_step.empty()) check_folders(tiles, path_of_report(options));
+  if (options.tile_step.empty()) check_folders(tiles, path_of_report(options), steps);
   folder.claim(steps.parameters(), steps.files());
   survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
   if (!options.tile_step.empty()) {
@@ -261,7 +281,8 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
     if (options.tile && *options.tile >= tiles.size())
       throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
                                   counted(tiles.size(), "tile") + ", numbered from 0");
-    const Exit_code code = do_step(step, options.tile.value_or(0), options);
+    if (step.name == std::string("merge")) forget_steps_after(steps, step);
+    const Exit_code code = do_step(steps, step, options.tile.value_or(0), options);
     return code == success && options.tile_step == "report" ? tell(steps.read_report(), options) : code;
   }
   const Exit_code code = do_all_steps(steps, folder, options, report);
