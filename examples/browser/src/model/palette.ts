@@ -36,14 +36,19 @@ export const paletteDistance: readonly (readonly number[])[] = paletteAppearance
   paletteAppearances.map((b) => apparentDistance(a, b)),
 );
 
-/** The colour of the palette that looks least like any of some colours. */
+/** The colour of the palette that looks least like any of some colours; where they have all of it, the least used one. */
 export function farthestColor(taken: readonly Color[]): Color {
+  const key = ([red, green, blue]: Color) => (red << 16) | (green << 8) | blue;
+  const uses = new Map<number, number>();
+  for (const color of taken) uses.set(key(color), (uses.get(key(color)) ?? 0) + 1);
+  const usesOf = (color: Color) => uses.get(key(color)) ?? 0;
+  if (palette.every((color) => usesOf(color) > 0))
+    return palette.reduce((best, color) => (usesOf(color) < usesOf(best) ? color : best));
   const others = taken.map(appearances);
-  const distance = (i: number) =>
-    Math.min(distinct, ...others.map((other) => apparentDistance(paletteAppearances[i], other)));
-  let best = 0;
-  for (let i = 1; i < palette.length; ++i) if (distance(i) > distance(best)) best = i;
-  return palette[best];
+  const distances = paletteAppearances.map((color) =>
+    Math.min(distinct, ...others.map((other) => apparentDistance(color, other))),
+  );
+  return palette[distances.indexOf(Math.max(...distances))];
 }
 
 /** Where neighbouring segments are given colours at least so far apart. */

@@ -4,6 +4,7 @@ import { expect, test } from '@playwright/test';
 import { amend, beginHistory, record, redo, undo } from '../../src/model/History';
 import { newAnnotation, withNewLabel, withoutLabelAndSeeds } from '../../src/model/labels';
 import { latest } from '../../src/model/latest';
+import { palette } from '../../src/model/palette';
 import { segmentOfFragments, segmentsAtLevel } from '../../src/model/mergeTree';
 import { seedEdit, withoutSeeds, withSeeds } from '../../src/model/seeds';
 import { neighboursOf, segmentsOf } from '../../src/model/segments';
@@ -52,6 +53,21 @@ test('new labels have new numbers and colours, and take a free number again', ()
   );
   expect([...less.seeds]).toEqual([[6, 4]]);
   expect(withNewLabel(less).labels.map((label) => label.id)).toContain(3);
+});
+
+test('with more labels than colours, each colour is used as often as the others', () => {
+  let annotation = newAnnotation;
+  while (annotation.labels.length < 2 * palette.length) annotation = withNewLabel(annotation);
+  const uses = new Map<string, number>();
+  for (const { color } of annotation.labels) uses.set(color, (uses.get(color) ?? 0) + 1);
+  expect([...uses.values()]).toEqual(palette.map(() => 2));
+});
+
+test('a thousand labels are made at once', () => {
+  let annotation = newAnnotation;
+  const start = performance.now();
+  while (annotation.labels.length < 1000) annotation = withNewLabel(annotation);
+  expect(performance.now() - start).toBeLessThan(8000);
 });
 
 /** Four fragments in a row: 1 and 2 merge, then 0 with them, then 3. */
