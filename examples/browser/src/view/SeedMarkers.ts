@@ -14,6 +14,9 @@ export class SeedMarkers {
   readonly object = new Points(new BufferGeometry(), dots());
 
   constructor() {
+    this.object.onBeforeRender = (renderer) => {
+      this.object.material.uniforms.diameter.value = 14 * renderer.getPixelRatio();
+    };
     this.object.frustumCulled = false;
     this.resize(64);
   }
@@ -49,7 +52,7 @@ export class SeedMarkers {
 /** A dot with a light ring inside a dark one, seen on every colour, and a little nearer than the face it lies on. */
 function dots(): ShaderMaterial {
   return new ShaderMaterial({
-    uniforms: { diameter: { value: 14 * Math.min(window.devicePixelRatio, 2) } },
+    uniforms: { diameter: { value: 14 } },
     vertexShader: `
       attribute vec4 color;
       varying vec3 fill;

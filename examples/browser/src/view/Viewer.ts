@@ -40,7 +40,6 @@ export class Viewer {
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: hasGraphicsCard(), alpha: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
 
     const headlight = new DirectionalLight(0xffffff, 1.4);
     headlight.position.set(0.4, 0.8, 1);
@@ -49,7 +48,9 @@ export class Viewer {
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
+    canvas.addEventListener('webglcontextrestored', () => this.draw());
     new ResizeObserver(() => this.resize()).observe(canvas);
+    this.followPixelRatio();
   }
 
   /** Tells the listener after each picture. */
@@ -179,6 +180,14 @@ export class Viewer {
     this.camera.far = distance + 3 * this.bounds.radius;
     this.camera.updateProjectionMatrix();
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Another screen has another ratio, and so has a page that is zoomed. */
+  private followPixelRatio(): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.draw();
+    const isSame = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    isSame.addEventListener('change', () => this.followPixelRatio(), { once: true });
   }
 
   private resize(): void {

@@ -64,6 +64,15 @@ test('the help lists the shortcuts and gives the focus back', async ({ segmentat
   await expect(page.locator('input[value=seed]')).toBeChecked();
 });
 
+test('the help is read from its beginning, also where the window is too small for it', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await page.setViewportSize({ width: 640, height: 360 });
+  await page.keyboard.press('?');
+  await expect(page.getByRole('heading', { name: 'Segmenting a mesh' })).toBeInViewport();
+  await page.keyboard.press('Tab');
+  await expect(page.getByRole('button', { name: 'Close', exact: true })).toBeFocused();
+});
+
 test('texts have the contrast that WCAG AA asks for, dark and light', async ({ segmentation }) => {
   const { page } = segmentation;
   for (const scheme of ['light', 'dark'] as const) {
@@ -205,4 +214,35 @@ test('the page works from a static host', async ({ segmentation }) => {
   } finally {
     server.close();
   }
+});
+
+test('the picture comes back when the browser has taken the graphics card away for a while', async ({
+  segmentation,
+}) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', cube(8));
+  const picture = async () => (await page.locator('#canvas').screenshot()).toString('base64');
+  await expect.poll(async () => (await picture()) === (await picture())).toBe(true);
+  const before = await picture();
+  const card = await page.evaluateHandle(() =>
+    document.querySelector('canvas')!.getContext('webgl2')!.getExtension('WEBGL_lose_context')!,
+  );
+  await card.evaluate((card) => card.loseContext());
+  await expect.poll(picture).not.toBe(before);
+  await card.evaluate((card) => card.restoreContext());
+  await expect.poll(picture).toBe(before);
+});
+
+test('the picture is as fine as the screen after the window has gone to another one', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const sharpness = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector('canvas')!;
+      return canvas.width / canvas.clientWidth;
+    });
+  expect(await sharpness()).toBe(1);
+  const screen = await page.context().newCDPSession(page);
+  const metrics = { width: 1200, height: 720, deviceScaleFactor: 2, mobile: false };
+  await screen.send('Emulation.setDeviceMetricsOverride', metrics);
+  await expect.poll(sharpness).toBe(2);
 });
