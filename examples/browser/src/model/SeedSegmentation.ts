@@ -26,6 +26,8 @@ export class SeedSegmentation {
   readonly currentLabel = signal(0);
   /** The segment of each face, null without seeds. */
   readonly segmentOfFace = signal<Uint32Array | null>(null);
+  /** The labels whose seeds made those segments; components without seeds have others. */
+  readonly seededLabels = signal<ReadonlySet<number>>(new Set());
   /** The label whose probability is looked at. */
   readonly probableLabel = signal<number | null>(null);
   readonly probabilities = signal<Float32Array | null>(null);
@@ -46,6 +48,7 @@ export class SeedSegmentation {
       this.history.value = beginHistory(annotation);
       this.currentLabel.value = annotation.labels[0]?.id ?? 0;
       this.segmentOfFace.value = segmentOfFace;
+      this.seededLabels.value = new Set(annotation.seeds.values());
       this.probableLabel.value = null;
       this.probabilities.value = null;
       this.milliseconds.value = null;
@@ -119,6 +122,7 @@ export class SeedSegmentation {
       if (mesh !== this.meshes) return;
       batch(() => {
         this.segmentOfFace.value = segmentOfFace;
+        this.seededLabels.value = new Set(seeds.values());
         this.probabilities.value = this.probableLabel.peek() === label ? probabilities : null;
         this.milliseconds.value = seeds.size === 0 ? null : performance.now() - start;
       });

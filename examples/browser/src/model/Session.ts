@@ -88,6 +88,9 @@ export class Session {
   private paletteOfFace: Uint8Array | null = null;
   /** What the engine has made the walk for. */
   private preparedParameters = defaultParameters;
+  /** How many meshes were to be opened, and whether the last one was. */
+  private openings = 0;
+  private lastOpening = Promise.resolve(false);
 
   constructor() {
     effect(() => {
@@ -104,17 +107,34 @@ export class Session {
   }
 
   /**
-   * Opens another mesh. The one before stays if that fails.
+   * Opens another mesh. The one before stays if that fails. Of those that are asked for while one is being opened, the last
+   * is opened after it.
    *
    * @param walls the edges of that mesh that are walls; those of the one before mean nothing there
+   * @returns whether it was opened
    */
-  async open(
+  open(name: string, source: () => Promise<MeshSource> | MeshSource, walls: Walls['file'] = null): Promise<boolean> {
+    const opening = ++this.openings;
+    this.opening.value = name;
+    const isLast = () => opening === this.openings;
+    this.lastOpening = this.lastOpening.then(async () => {
+      const isOpened = isLast() && (await this.exchange(name, source, walls));
+      if (isLast()) this.endOpening();
+      return isOpened;
+    });
+    return this.lastOpening;
+  }
+
+  /** Ends when no mesh is being opened. */
+  async whenOpened(): Promise<void> {
+    while (this.opening.peek() !== null) await this.lastOpening;
+  }
+
+  private async exchange(
     name: string,
     source: () => Promise<MeshSource> | MeshSource,
-    walls: Walls['file'] = null,
+    walls: Walls['file'],
   ): Promise<boolean> {
-    if (this.opening.peek() !== null) return false;
-    this.opening.value = name;
     try {
       const content = await source();
       const parameters = this.parameters.peek();
@@ -125,7 +145,10 @@ export class Session {
         this.paletteOfFace = null;
         this.givenLabels.value = null;
         this.curves.value = null;
-        this.parameters.value = this.preparedParameters = nextParameters;
+        const asked = this.parameters.peek(); // which may have changed meanwhile
+        this.preparedParameters = nextParameters;
+        this.parameters.value =
+          asked === parameters ? nextParameters : { ...asked, walls: { ...asked.walls, file: walls } };
         this.wallEdges.value = mesh.walls;
         this.appearance.reset();
         this.automatic.reset();
@@ -139,9 +162,12 @@ export class Session {
     } catch (error) {
       this.report(error, `${name} was not opened. `);
       return false;
-    } finally {
-      this.opening.value = null;
     }
+  }
+
+  private endOpening(): void {
+    this.opening.value = null;
+    if (this.mesh.peek() && this.parameters.peek() !== this.preparedParameters) void this.prepare();
   }
 
   openFile(file: File): Promise<boolean> {
@@ -154,7 +180,7 @@ export class Session {
 
   setParameters(parameters: Partial<WalkParameters>): void {
     this.parameters.value = { ...this.parameters.peek(), ...parameters };
-    if (this.mesh.peek()) void this.prepare();
+    if (this.mesh.peek() && this.opening.peek() === null) void this.prepare();
   }
 
   resetParameters(): void {
@@ -196,7 +222,10 @@ export class Session {
 
   /** Segments with the names and colours of their labels. Components without seeds have neither. */
   private named(segments: Segment[]): ShownSegment[] {
-    const labels = new Map(this.seeds.labels.value.map((label) => [label.id, label]));
+    const seeded = this.seeds.seededLabels.value;
+    const labels = new Map(
+      this.seeds.labels.value.filter(({ id }) => seeded.has(id)).map((label) => [label.id, label]),
+    );
     return segments.map((segment) => {
       const label = labels.get(segment.label);
       return {

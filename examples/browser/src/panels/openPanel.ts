@@ -26,16 +26,21 @@ export function openPanel(session: Session): void {
   });
 }
 
-async function openFile(session: Session, file: File): Promise<void> {
-  if (!/\.json$/i.test(file.name)) return void (await session.openFile(file));
-  const mesh = session.mesh.peek();
+/** @returns whether it was opened */
+async function openFile(session: Session, file: File): Promise<boolean> {
+  if (!/\.json$/i.test(file.name)) return session.openFile(file);
   try {
+    const text = await file.text();
+    await session.whenOpened();
+    const mesh = session.mesh.peek();
     if (!mesh) throw new Error('Open the mesh first.');
-    session.seeds.replace(readSeeds(await file.text(), mesh.faces));
+    session.seeds.replace(readSeeds(text, mesh.faces));
     session.mode.value = 'seeds';
     session.message.value = null;
+    return true;
   } catch (error) {
     session.report(error, `${file.name} was not loaded. `);
+    return false;
   }
 }
 
@@ -52,9 +57,22 @@ function acceptDrops(session: Session): void {
   window.addEventListener('drop', (event) => {
     event.preventDefault();
     enter(-depth);
-    const file = event.dataTransfer?.files[0];
-    if (file) void openFile(session, file);
+    void openTogether(session, [...(event.dataTransfer?.files ?? [])]);
   });
+}
+
+/** A mesh, seeds, or both. Materials beside an OBJ file tell nothing. */
+async function openTogether(session: Session, files: File[]): Promise<void> {
+  const isSeeds = (file: File) => /\.json$/i.test(file.name);
+  const seeds = files.filter(isSeeds);
+  const others = files.filter((file) => !isSeeds(file));
+  const hasObj = others.some((file) => /\.obj$/i.test(file.name));
+  const meshes = others.filter((file) => !(hasObj && /\.mtl$/i.test(file.name)));
+  if (meshes.length > 1 || seeds.length > 1) {
+    const error = new Error('A mesh and its seeds are opened together, but no more files.');
+    return session.report(error, `None of the ${files.length} files was opened. `);
+  }
+  for (const file of [...meshes, ...seeds]) if (!(await openFile(session, file))) return;
 }
 
 async function offerModels(session: Session): Promise<void> {

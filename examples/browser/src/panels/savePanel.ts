@@ -44,7 +44,8 @@ export function savePanel(session: Session, viewer: Viewer): void {
   effect(() => {
     const enable = (id: string, isPossible: boolean) => (byId<HTMLButtonElement>(id).disabled = !isPossible);
     const hasMesh = session.mesh.value !== null;
-    enable('save-segments', session.segments.value.length > 0);
+    // The engine may have the next mesh already.
+    enable('save-segments', session.segments.value.length > 0 && session.opening.value === null);
     const isFinding = session.surfaceSegments.value !== null && session.surfaces.found.value === null;
     enable('save-report', session.segments.value.length > 0 && !isFinding);
     for (const id of ['save-picture', 'load-seeds']) enable(id, hasMesh);

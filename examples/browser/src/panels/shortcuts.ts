@@ -23,8 +23,8 @@ export function shortcuts(session: Session, stage: Stage, pointerTools: PointerT
     action: () => (session.tool.value = value),
   });
   const list: Shortcut[] = [
-    { keys: ['Ctrl+Z'], what: 'undo', action: () => seeds.undo() },
-    { keys: ['Ctrl+Y', 'Ctrl+Shift+Z'], what: 'redo', action: () => seeds.redo() },
+    { keys: ['Ctrl+Z'], what: 'undo', action: () => byId('undo').click() },
+    { keys: ['Ctrl+Y', 'Ctrl+Shift+Z'], what: 'redo', action: () => byId('redo').click() },
     {
       keys: ['1', '2', '3', '4', '5', '6', '7', '8', '9'],
       what: 'choose a label',
@@ -33,7 +33,7 @@ export function shortcuts(session: Session, stage: Stage, pointerTools: PointerT
         if (label) seeds.currentLabel.value = label.id;
       },
     },
-    { keys: ['N'], what: 'another label', action: () => seeds.addLabel() },
+    { keys: ['N'], what: 'another label', action: () => session.mode.peek() === 'seeds' && seeds.addLabel() },
     tool('V', 'view', 'look only'),
     tool('S', 'seed', 'place seeds'),
     tool('P', 'paint', 'paint seeds'),

@@ -2,8 +2,8 @@
 
 import { gzipSync } from 'node:zlib';
 import { labelFormats, meshFormats } from '../../src/files/formats';
-import { cube, offFile, triangulated } from '../meshes';
-import { expect, test } from './fixture';
+import { bumpySphere, cube, offFile, triangulated } from '../meshes';
+import { expect, test, type SegmentationTester } from './fixture';
 
 const n = 6;
 const mesh = cube(n);
@@ -150,6 +150,72 @@ test('the picture shows the mesh', async ({ segmentation }) => {
     return new Set(new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)).size;
   }, content.toString('base64'));
   expect(colors).toBeGreaterThan(3); // at least the ground and three sides
+});
+
+test('a mesh that comes while another one is being opened is opened after it', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const large = bumpySphere(120);
+  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await segmentation.open('skipped.off', offFile(mesh.points, mesh.faces));
+  await segmentation.open('last.off', offFile(mesh.points, mesh.faces));
+  await expect(page.locator('#opening')).toHaveText('Opening last.off …');
+  await expect(page.locator('#mesh-name')).toHaveText('last.off');
+  await expect(page.locator('#opening')).toBeHidden();
+  expect((await segmentation.engineCalls()).load).toBe(4); // with the page's own model and the cube
+});
+
+test('segments are not saved while the engine opens another mesh', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const large = bumpySphere(120);
+  await segmentation.open('large.off', offFile(large.points, large.faces));
+  const [isPossible, isOpening] = await page.evaluate(() => [
+    !document.querySelector<HTMLButtonElement>('#save-segments')!.disabled,
+    !document.querySelector<HTMLElement>('#opening')!.hidden,
+  ]);
+  expect([isPossible, isOpening]).toEqual([false, true]);
+});
+
+/** Drops files on the page. */
+async function drop({ page }: SegmentationTester, files: [name: string, content: string][]): Promise<void> {
+  const dropped = await page.evaluateHandle((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, content] of files) transfer.items.add(new File([content], name));
+    return transfer;
+  }, files);
+  await page.dispatchEvent('#canvas', 'drop', { dataTransfer: dropped });
+}
+
+test('a mesh is dropped together with its seeds and materials', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const other = cube(4);
+  const seeds = JSON.stringify({
+    format: 'RW_segmentation seeds',
+    faces: other.faces.length,
+    labels: [{ id: 0, name: 'Lid', color: '#0072b2' }],
+    seeds: [{ face: 7, label: 0 }],
+  });
+  const obj = [
+    ...other.points.map((point) => `v ${point.join(' ')}`),
+    ...other.faces.map((face) => `f ${face.map((vertex) => vertex + 1).join(' ')}`),
+  ].join('\n');
+  await drop(segmentation, [
+    ['a_seeds.json', seeds],
+    ['b.mtl', 'newmtl a'],
+    ['c.obj', obj],
+  ]);
+  await expect(page.locator('#mesh-name')).toHaveText('c.obj');
+  await expect.poll(() => segmentation.seeds()).toEqual([[7, 0]]);
+  await expect(page.getByRole('alert')).toBeHidden();
+});
+
+test('of several meshes that are dropped together none is opened, which is told', async ({ segmentation }) => {
+  const off = offFile(mesh.points, mesh.faces);
+  await drop(segmentation, [
+    ['a.off', off],
+    ['b.off', off],
+  ]);
+  await expect(segmentation.page.getByRole('alert')).toContainText('None of the 2 files was opened.');
+  await expect(segmentation.page.locator('#mesh-name')).toHaveText('cube.off');
 });
 
 for (const [what, name, content, message] of [

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-import { cube, offFile, triangulated } from '../meshes';
+import { bumpySphere, cube, offFile, triangulated } from '../meshes';
 import { answer, engineWith, expect, test } from './fixture';
 
 const n = 10;
@@ -189,4 +189,43 @@ test('smooth boundaries are drawn between segments of triangles, and are offered
   await page.keyboard.press('Control+Z');
   expect(new Set(await segmentation.labelsAfter(labels)).size).toBe(1);
   await expect.poll(curves).toBe(0);
+});
+
+test('sliders that are moved while a mesh is being opened hold for it', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await page.getByText('What separates parts').click();
+  const large = bumpySphere(120);
+  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await page.locator('#sigma').fill('-1');
+  await expect(page.locator('#mesh-name')).toHaveText('large.off');
+  await expect(page.locator('#sigma-value')).toHaveText('0.10');
+  await expect.poll(async () => (await segmentation.engineCalls()).prepare).toBe(1);
+});
+
+test('a component without seeds has no label, though one is free', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const { points, faces } = cube(4);
+  const beside = points.map(([x, y, z]) => [x + 1.5, y, z]);
+  const corners = faces.map((face) => face.map((vertex) => vertex + points.length));
+  await segmentation.openMesh('two.off', { points: [...points, ...beside], faces: [...faces, ...corners] });
+  const labels = await segmentation.seed(5 * 16 + 10);
+  expect(new Set(labels).size).toBe(2);
+  await expect(page.locator('#segments > li')).toHaveCount(2);
+  await expect(page.locator('#segments')).toContainText('Part 1');
+  await expect(page.locator('#segments')).toContainText('Unseeded');
+  await expect(page.locator('#segments')).not.toContainText('Part 2');
+});
+
+test('seeds are not undone, nor labels added, by keys while they are not shown', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', mesh);
+  await segmentation.seed(front);
+  await page.click('#tab-automatic');
+  await page.keyboard.press('Control+Z');
+  await page.keyboard.press('n');
+  expect(await segmentation.seeds()).toEqual([[front, 0]]);
+  await expect(page.locator('#labels > li')).toHaveCount(2);
+  await page.click('#tab-seeds');
+  await page.keyboard.press('Control+Z');
+  expect(await segmentation.seeds()).toEqual([]);
 });
