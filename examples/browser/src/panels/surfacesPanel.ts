@@ -148,6 +148,7 @@ function regularity({ surfaces }: Session): void {
   const angle = byId<HTMLInputElement>('regular-angle');
   const number = (input: HTMLInputElement) => (input.value === '' ? null : input.valueAsNumber);
   const take = () => {
+    length.disabled = angle.disabled = !isRegular.checked; // what is disabled is never invalid
     if (![length, angle].every((input) => input.reportValidity())) return;
     surfaces.regularity.value = isRegular.checked ? { length: number(length), angle: number(angle) } : null;
   };

@@ -12,6 +12,7 @@ export class Cancelled extends Error {
 }
 
 interface Pending {
+  request: Request;
   resolve: (result: never) => void;
   reject: (error: Error) => void;
   onProgress: ((fraction: number) => void) | undefined;
@@ -48,7 +49,7 @@ export class EngineClient {
 
   /** Takes a mesh that another engine has loaded, when it is needed. Computations on the former one end. */
   follow(source: MeshSource): void {
-    if (this.pending.size > 0) this.cancel();
+    if (this.pending.size > 0) this.restart(new Cancelled());
     this.source = source;
     this.isLoaded = false;
   }
@@ -83,9 +84,15 @@ export class EngineClient {
     return this.callOnMesh('file', values);
   }
 
-  /** Ends all computations: their promises are rejected with `Cancelled`. */
+  /** Ends the search for a hierarchy: its promise is rejected with `Cancelled`. What waits behind it is asked anew. */
   cancel(): void {
+    const waiting = [...this.pending.values()].filter(({ request }) => !['follow', 'hierarchy'].includes(request.name));
+    for (const { request } of waiting) this.pending.delete(request.id);
     this.restart(new Cancelled());
+    for (const call of waiting) {
+      this.giveMesh();
+      this.post(call);
+    }
   }
 
   private callOnMesh<Name extends keyof Calls>(
@@ -93,11 +100,18 @@ export class EngineClient {
     values: Parameters<Calls[Name]>,
     onProgress?: (fraction: number) => void,
   ): Promise<ReturnType<Calls[Name]>> {
-    if (!this.isLoaded && this.source) {
-      this.isLoaded = true;
-      this.call('follow', [this.source, this.parameters]).catch(() => (this.isLoaded = false));
-    }
+    this.giveMesh();
     return this.call(name, values, onProgress);
+  }
+
+  /** Gives the worker the mesh that it does not have. */
+  private giveMesh(): void {
+    if (this.isLoaded || !this.source) return;
+    this.isLoaded = true;
+    const { worker } = this;
+    this.call('follow', [this.source, this.parameters]).catch(() => {
+      if (worker === this.worker) this.isLoaded = false; // else another one may have it
+    });
   }
 
   private call<Name extends keyof Calls>(
@@ -108,9 +122,13 @@ export class EngineClient {
     this.counts[name] = (this.counts[name] ?? 0) + 1;
     const id = this.nextId++;
     return new Promise((resolve, reject) => {
-      this.pending.set(id, { resolve, reject, onProgress });
-      this.worker.postMessage({ id, name, values } as Request);
+      this.post({ request: { id, name, values } as Request, resolve, reject, onProgress });
     });
+  }
+
+  private post(call: Pending): void {
+    this.pending.set(call.request.id, call);
+    this.worker.postMessage(call.request);
   }
 
   private startWorker(): Worker {

@@ -129,6 +129,43 @@ test('surfaces are made regular within tolerances, and each snap is told', async
   expect((await columnOf(segmentation, 3)).filter((text) => text !== '').sort()).toEqual(['r 1', 'r 2']);
 });
 
+test('surfaces are as fitted again when a tolerance is wrong and the tick is taken away', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await surfacesOfShaft(segmentation);
+  await page.getByText('Regular surfaces').click();
+  await page.getByLabel('Make parallel').check();
+  await expect(page.locator('#snaps li').first()).toBeVisible();
+  await page.getByLabel('Lengths off by').fill('-1');
+  await page.getByLabel('Lengths off by').press('Tab');
+  await page.getByLabel('Make parallel').uncheck();
+  await expect(page.locator('#snaps li')).toHaveCount(0);
+  await page.getByLabel('Make parallel').check(); // which asks for a number that can be
+  await page.getByLabel('Lengths off by').fill('');
+  await page.getByLabel('Lengths off by').press('Tab');
+  await expect(page.locator('#snaps li').first()).toBeVisible();
+  await expect(page.locator('#message')).toBeHidden();
+});
+
+test('surfaces are fitted though parts that were looked for meanwhile are cancelled', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const { points, faces } = shaft([1, 2, 3], 600);
+  await segmentation.openMesh('shaft.off', { points, faces });
+  await page.click('#tab-automatic');
+  await page.getByText('Machine part').click();
+  await page.click('#compute');
+  await expect(page.locator('#surface-rows tr').first()).toBeVisible();
+  await page.getByText('Natural shape').click();
+  await page.getByText('How parts are found').click();
+  await page.getByLabel('Faces differ by').selectOption('curvature');
+  await page.locator('#radius').fill('10'); // takes long
+  await page.click('#compute');
+  await page.getByText('Machine part').click();
+  await expect(page.locator('#finding-surfaces')).toBeVisible();
+  await page.click('#cancel');
+  await expect(page.locator('#surface-rows tr').first()).toBeVisible();
+  await expect.poll(() => page.evaluate(() => window.segmentationPage.curves())).toBeGreaterThan(0);
+});
+
 test('surfaces follow the number of parts, and natural shapes have none', async ({ segmentation }) => {
   const { page } = segmentation;
   await surfacesOfShaft(segmentation);
