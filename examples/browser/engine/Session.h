@@ -45,7 +45,7 @@ using Progress_callback = std::function<bool(double)>;
 
 /// A mesh as it is drawn. Polygons are cut into fans.
 struct Drawn_mesh {
-  std::vector<float> positions;                 ///< three of each vertex
+  std::vector<float> positions;                 ///< three of each vertex, from a corner of the mesh
   std::vector<std::uint32_t> triangles;         ///< three vertices each
   std::vector<std::uint32_t> face_of_triangle;  ///< which face each triangle shows
   std::vector<double> face_areas;
@@ -62,12 +62,8 @@ struct Levels {
 
 /// Curves on the surface, one after the other.
 struct Polylines {
-  std::vector<float> points;                ///< three coordinates each; a closed curve repeats its first point
+  std::vector<float> points;  ///< three coordinates each, from a corner of the mesh; a closed curve repeats its first
   std::vector<std::uint32_t> starts = {0};  ///< the first point of each curve, and the end of the last
-
-  void add(const Point& p) {
-    for (int i = 0; i < 3; ++i) points.push_back(static_cast<float>(p[i]));
-  }
 
   /// Makes a curve of the points added since the last one.
   void end_curve() { starts.push_back(static_cast<std::uint32_t>(points.size() / 3)); }
@@ -93,6 +89,7 @@ class Session {
   explicit Session(const mesh_files::Polygon_soup& soup)
       : points_of_file_(soup.points), input_(segment_mesh::oriented_mesh(soup, {})) {
     if (mesh().number_of_faces() == 0) throw std::invalid_argument("the file holds no face");
+    origin_ = mesh().point(mesh().source(mesh().halfedge(*mesh().faces().begin())));
   }
 
   /// What was repaired, a sentence each.
@@ -100,8 +97,7 @@ class Session {
 
   Drawn_mesh drawn_mesh() const {
     Drawn_mesh drawn;
-    for (const auto v : mesh().vertices())
-      for (int i = 0; i < 3; ++i) drawn.positions.push_back(static_cast<float>(mesh().point(v)[i]));
+    for (const auto v : mesh().vertices()) draw(mesh().point(v), drawn.positions);
     for (const auto f : mesh().faces()) {
       const auto first = mesh().halfedge(f);
       for (auto h = mesh().next(first); mesh().next(h) != first; h = mesh().next(h)) {
@@ -132,7 +128,7 @@ class Session {
     Polylines lines;
     for (const auto e : mesh().edges()) {
       if (!walls_[e]) continue;
-      for (const int end : {0, 1}) lines.add(mesh().point(mesh().vertex(e, end)));
+      for (const int end : {0, 1}) draw(mesh().point(mesh().vertex(e, end)), lines.points);
       lines.end_curve();
     }
     return lines;
@@ -211,8 +207,8 @@ class Session {
                                                            CGAL::parameters::edge_is_constrained_map(walls_));
     Polylines lines;
     for (const auto& curve : curves) {
-      for (const auto& curve_point : curve.points) lines.add(curve_point.point);
-      if (curve.is_closed) lines.add(curve.points.front().point);
+      for (const auto& curve_point : curve.points) draw(curve_point.point, lines.points);
+      if (curve.is_closed) draw(curve.points.front().point, lines.points);
       lines.end_curve();
     }
     return lines;
@@ -236,6 +232,11 @@ class Session {
   using Walk = RW_segmentation::Random_walk<Mesh>;
 
   const Mesh& mesh() const { return input_.mesh; }
+
+  /// Adds the coordinates of a point as they are drawn: single precision has no digits for a small mesh far away.
+  void draw(const Point& point, std::vector<float>& coordinates) const {
+    for (int i = 0; i < 3; ++i) coordinates.push_back(static_cast<float>(point[i] - origin_[i]));
+  }
 
   mesh_files::Polygon_soup soup() const {
     mesh_files::Polygon_soup soup;
@@ -281,6 +282,7 @@ class Session {
   segment_mesh::Oriented_mesh input_;
   segment_mesh::Wall_map walls_ = input_.mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
   std::optional<Walk> walk_;
+  Point origin_;  // of what is drawn
 };
 
 }  // namespace browser_engine

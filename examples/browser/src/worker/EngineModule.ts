@@ -63,7 +63,7 @@ export type FileFormat =
   | ('seg' | 'csv' | 'npz');
 
 export interface MeshData {
-  /** Three coordinates a vertex. */
+  /** Three coordinates a vertex, from a corner of the mesh. */
   positions: Float32Array;
   /** Three vertices a triangle; polygons are cut into fans. */
   triangles: Uint32Array;
@@ -161,7 +161,7 @@ export interface FoundSurfaces {
   regular: SurfaceSnap[];
 }
 
-/** Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */
+/** Curves, with coordinates as those of the mesh. Curve i has the points `starts[i]` .. `starts[i + 1]` - 1; closed ones repeat their first point. */
 export interface Curves {
   points: Float32Array;
   starts: Uint32Array;
