@@ -364,6 +364,21 @@ TEST_F(Segment_mesh_tool, APageHoldsSeedsAndTheirLabels) {
   EXPECT_EQ(page["seeds"], nlohmann::json::parse(R"([{"face": 1, "label": 4}, {"face": 5, "label": 2}])"));
 }
 
+TEST_F(Segment_mesh_tool, APageHoldsTheNumbersByWhichSeedsWereToGrow) {
+  write("strip.off", strip(6));
+  write("page.html", place_for_result + "null</script>");
+  const auto parameters = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"strip.off", "--seed", "1", "--seed", "5", "--html", "s.html", "--page", "page.html"});
+    EXPECT_EQ(run(options).exit_code, 0);
+    return result_in_page(content_of(path("s.html")), place_for_result, "</script>")["parameters"];
+  };
+  EXPECT_EQ(parameters({}), nlohmann::json({{"convexWeight", .02}, {"sigma", 1.}}));
+  EXPECT_EQ(parameters({"--sigma", "0.25", "--convex-weight", "0.5"}),
+            nlohmann::json({{"convexWeight", .5}, {"sigma", .25}}));
+  EXPECT_EQ(parameters({"--difference", "curvature"}), nullptr);
+}
+
 TEST_F(Segment_mesh_tool, SplitWritesEachSegmentAsAMeshOfItsOwn) {
   write("tower.off", tower(2));
   ASSERT_EQ(run({"tower.off", "--segments", "3", "--labels", "t.seg", "--split", "parts"}).exit_code, 0);

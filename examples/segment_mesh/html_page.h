@@ -126,6 +126,13 @@ inline Json policies_for_page(const Options& options) {
   return policies;
 }
 
+/// What separates parts that grow from seeds, as the sliders of a page have it; null where the page has no such difference.
+inline Json parameters_for_page(const Options& options) {
+  const Method method = method_of(options);
+  if (method.difference != Difference::concavity) return nullptr;
+  return {{"convexWeight", method.angles.convex_weight}, {"sigma", method.sigma}};
+}
+
 /// The walls as a file for `--constraints` beside the mesh in the page; null without any. Those of a mesh that has been cut
 /// since are not known.
 inline Json walls_for_page(const Mesh& mesh, const Wall_map& walls, const Options& options) {
@@ -166,6 +173,7 @@ inline Json result_for_page(const std::string& path, const Mesh& mesh, const Wal
           {"segments", segments},
           {"mode", mode},
           {"policies", mode == "graphical" ? policies_for_page(options) : Json()},
+          {"parameters", mode == "seeds" ? parameters_for_page(options) : Json()},
           {"walls", walls_for_page(mesh, walls, options)},
           {"surfaces", surfaces_for_page(result, options)},
           {"seeds", std::move(seeds)}};

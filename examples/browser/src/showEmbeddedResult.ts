@@ -16,6 +16,7 @@ export async function showEmbeddedResult(session: Session): Promise<boolean> {
     const result = readEmbeddedResult(text);
     if (!result) return false;
     const walls = result.walls ? { name: `Walls of ${result.name}`, text: result.walls } : null;
+    session.parameters.value = { ...session.parameters.peek(), ...result.parameters };
     const opened = await session.open(result.name, () => ({ fileName: 'embedded.ply', bytes: result.mesh }), walls);
     if (opened) show(session, result);
   } catch (error) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+import type { WalkParameters } from '../worker/calls';
 import type { FoundSurfaces, Hierarchy, HierarchyKind, Policies, Regularity } from '../worker/EngineModule';
 
 /** A result that `segment_mesh --html` has put into the page. */
@@ -13,6 +14,8 @@ export interface EmbeddedResult {
   mode: 'seeds' | HierarchyKind;
   /** What a natural shape was segmented by. */
   policies?: Partial<Policies> | null;
+  /** What seeds grew by. */
+  parameters?: Pick<WalkParameters, 'convexWeight' | 'sigma'> | null;
   /** Two vertices a line. */
   walls?: string | null;
   /** Of a machine part, and what they were made regular by. */

@@ -5,7 +5,7 @@ import { createServer } from 'node:http';
 import { readFileSync, writeFileSync } from 'node:fs';
 import type { AddressInfo } from 'node:net';
 import { pathToFileURL } from 'node:url';
-import { cube, offFile } from '../meshes';
+import { bumpySphere, cube, offFile } from '../meshes';
 import { defaultPolicies } from '../../src/worker/calls';
 import { answer, engineWith, expect, pageFile, test } from './fixture';
 
@@ -156,7 +156,6 @@ test('a result that was put into the page is shown when it is opened from disk',
   );
   expect(hierarchy.fragments).toBe(6);
   const labels = Uint32Array.from(hierarchy.fragmentOfFace);
-  const base64 = (array: Uint32Array | Float64Array) => Buffer.from(array.buffer).toString('base64');
   const { fragments, fewest, suggested, levels } = hierarchy;
   const result = {
     name: 'result.off',
@@ -176,13 +175,7 @@ test('a result that was put into the page is shown when it is opened from disk',
     policies: null,
     seeds: [],
   };
-  const begin = '<script type="application/json" id="embedded-result">';
-  const page = readFileSync(pageFile, 'utf8');
-  expect(page.split(begin)).toHaveLength(2);
-  const path = testInfo.outputPath('result.html');
-  const [before, after] = page.split(begin);
-  writeFileSync(path, before + begin + JSON.stringify(result) + after.slice(after.indexOf('</script>')));
-  await segmentation.goto(pathToFileURL(path).href);
+  await segmentation.goto(pageWith(result, testInfo.outputPath('result.html')));
   await expect(segmentation.page.locator('#mesh-name')).toHaveText('result.off');
   await expect(segmentation.page.locator('#parts')).toHaveValue('6');
   expect(await segmentation.labels()).toEqual([...labels]);
@@ -190,6 +183,54 @@ test('a result that was put into the page is shown when it is opened from disk',
   expect(new Set(await segmentation.labels()).size).toBe(5);
   expect((await segmentation.engineCalls()).hierarchy).toBeUndefined();
 });
+
+test('seeds that were put into the page go on growing by the numbers that they grew by', async ({
+  segmentation,
+}, testInfo) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(24);
+  const [middle, beside] = [1100, 300];
+  const labelsBy = async (convexWeight: number, sigma: number, seeds: number[]) => {
+    const engine = await engineWith('bumps.off', offFile(mesh.points, mesh.faces));
+    answer(engine.prepare(convexWeight, sigma));
+    for (const [label, face] of seeds.entries()) answer(engine.addSeed(face, label));
+    return answer(engine.segment());
+  };
+  const labels = await labelsBy(0.8, 0.2, [middle, beside]);
+  expect(labels).not.toEqual(await labelsBy(0.02, 1, [middle, beside]));
+  const result = {
+    name: 'result.off',
+    mesh: Buffer.from(asciiPly(mesh)).toString('base64'),
+    labels: base64(labels),
+    hierarchy: null,
+    segments: 2,
+    mode: 'seeds',
+    parameters: { convexWeight: 0.8, sigma: 0.2 },
+    seeds: [middle, beside].map((face, label) => ({ face, label })),
+  };
+  await segmentation.goto(pageWith(result, testInfo.outputPath('result.html')));
+  await expect(page.locator('#mesh-name')).toHaveText('result.off');
+  expect(await segmentation.labels()).toEqual([...labels]);
+  await page.getByRole('button', { name: 'Remove Part 2' }).click();
+  await expect.poll(async () => new Set(await segmentation.labels()).size).toBe(1);
+  await page.click('#undo');
+  await expect.poll(() => segmentation.labels()).toEqual([...labels]);
+  await page.getByText('What separates parts').click();
+  await expect(page.locator('#convex-weight-value')).toHaveText('0.80');
+  await expect(page.locator('#sigma-value')).toHaveText('0.20');
+});
+
+const base64 = (array: Uint32Array | Float64Array) => Buffer.from(array.buffer).toString('base64');
+
+/** The address of a page that a result is put into. */
+function pageWith(result: unknown, path: string): string {
+  const begin = '<script type="application/json" id="embedded-result">';
+  const page = readFileSync(pageFile, 'utf8');
+  expect(page.split(begin)).toHaveLength(2);
+  const [before, after] = page.split(begin);
+  writeFileSync(path, before + begin + JSON.stringify(result) + after.slice(after.indexOf('</script>')));
+  return pathToFileURL(path).href;
+}
 
 function asciiPly({ points, faces }: { points: number[][]; faces: number[][] }): string {
   const header = [
