@@ -419,6 +419,28 @@ TEST(SplitAlongBoundariesOf, VisitorCanCarryAttributes) {
   for (const auto f : before.faces()) EXPECT_NEAR(sum[f], area(before, f), 1e-12);
 }
 
+TYPED_TEST(SplitAlongBoundaries, BothPartsOfAMarkedEdgeAreMarked) {
+  const Shape shape = meshes::plane(20);
+  auto mesh = TypeParam(shape).mesh;
+  using Mesh = decltype(mesh);
+  Growing_face_labels<Mesh> labels(
+      mesh, labels_by_place(shape, [](const Eigen::Vector3d& p) { return std::size_t(p.x() + 0.4 * p.y() > 0.72); }));
+  const auto lies_on_line = [&](const auto& e) {
+    return std::abs(point(mesh, source(e, mesh)).y() - 0.5) + std::abs(point(mesh, target(e, mesh)).y() - 0.5) < 1e-9;
+  };
+  std::map<typename boost::graph_traits<Mesh>::edge_descriptor, bool> marks;
+  for (const auto e : edges(mesh)) marks[e] = lies_on_line(e);
+  split_along_boundaries(mesh, smooth_boundaries(mesh, labels.map()), labels.map(),
+                         CGAL::parameters::edge_is_constrained_map(boost::make_assoc_property_map(marks)));
+  std::size_t on_line = 0;
+  for (const auto e : edges(mesh)) {
+    if (!lies_on_line(e)) continue;
+    ++on_line;
+    EXPECT_TRUE(marks[e]);
+  }
+  EXPECT_EQ(on_line, 21U);
+}
+
 // ---- What is refused, with nothing changed ----
 
 TEST(SplitAlongBoundariesOf, CrossingCurvesAreRefused) {

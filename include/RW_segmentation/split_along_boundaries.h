@@ -135,6 +135,7 @@ class Refinement_step {
   using Traits = boost::graph_traits<TriangleMesh>;
   using vertex_descriptor = typename Traits::vertex_descriptor;
   using halfedge_descriptor = typename Traits::halfedge_descriptor;
+  using edge_descriptor = typename Traits::edge_descriptor;
   using Segment = typename boost::property_traits<SegmentIdMap>::value_type;
   using Point = typename boost::property_traits<VertexPointMap>::value_type;
   using Maps = Split_maps<SegmentIdMap, ConstrainedMap, VertexPointMap>;
@@ -212,7 +213,9 @@ class Refinement_step {
       };
       const Eigen::Vector3d p = point_between(in_doubles(a), in_doubles(b), t);
       visitor_.before_edge_split(h, (t - begin) / (1 - begin), mesh_);
+      const bool is_marked = has_mark(edge(h, mesh_));
       const halfedge_descriptor added = CGAL::Euler::split_edge(h, mesh_);
+      if (is_marked) put(constrained_, edge(added, mesh_), true);
       put(points_, target(added, mesh_), Point(p.x(), p.y(), p.z()));
       vertex_of.push_back(target(added, mesh_));
       visitor_.edge_split(added, mesh_);
@@ -250,6 +253,13 @@ class Refinement_step {
     visitor_.after_subface_creations(mesh_);
     report_.faces_added += triangle;
     ++report_.faces_divided;
+  }
+
+  bool has_mark([[maybe_unused]] const edge_descriptor& e) const {
+    if constexpr (is_readable_map<ConstrainedMap, edge_descriptor>)
+      return static_cast<bool>(get(constrained_, e));
+    else
+      return false;
   }
 
   Segment segment_of(const Surface_refinement::Cut_face& cut, std::size_t triangle) const {
@@ -299,7 +309,7 @@ class Refinement_step {
 /// \param np
 /// - `vertex_point_map` (read-write, default: that of the mesh)
 /// - `edge_is_constrained_map` (writable map from `edge_descriptor` to `bool`, default: none): all edges of all curves
-/// are marked, others are left alone
+/// are marked, others are left alone; where the map can be read, both parts of a marked edge that is split are marked
 /// - `visitor` (see `Default_split_visitor`, default: that; taken by value): is told what is split, to carry
 /// attributes along
 /// \returns what was done
