@@ -194,6 +194,27 @@ TEST(SegmentationIntoSurfaces, FindsPlanesOneSquareWideBetweenFreeForms) {
   for (std::size_t plane = 0; plane < 8; plane += 2) EXPECT_GE(overlaps[plane], 0.9);
 }
 
+TEST(SegmentationIntoSurfaces, FindsACylinderThatBecomesAFreeFormByAndBy) {
+  // The first vertices beyond it are near the cylinder, but not on it.
+  constexpr std::size_t along = 8, along_flare = 16;
+  constexpr double radius = 0.5, length = 2;
+  for (const std::size_t around : {18U, 24U}) {
+    solids::Builder builder("tube with a flare");
+    const auto point = [](double u, double z) -> solids::Point {
+      const double turn = 2 * solids::half_turn * u, beyond = std::max(z - length, 0.);
+      const double r = radius + 1.2 * beyond * beyond * (1 + 0.3 * std::cos(3 * turn));
+      return {r * std::cos(turn), r * std::sin(turn), z};
+    };
+    const auto axis = solids::Point::UnitZ();
+    builder.grid(builder.add(solids::cylinder(solids::Point::Zero(), axis, radius)), around, along,
+                 [&](double u, double v) { return point(u, v * length); });
+    builder.grid(builder.add({}), around, along_flare,
+                 [&](double u, double v) { return point(u, length + 0.5 * v * v); });
+    const solids::Solid tube = std::move(builder).solid();
+    EXPECT_GT(best_overlaps(tube, segments_of(tube)).at(0), 0.99) << around << " sides";
+  }
+}
+
 /// A free form with creases along lines of constant x that end in it.
 static solids::Solid roof_that_becomes_flat(const std::vector<double>& creases) {
   solids::Builder builder("roof that becomes flat");

@@ -48,10 +48,13 @@ class Region_growth {
   void set_in_sheet(bool is_in_sheet) { is_in_sheet_ = is_in_sheet; }
   bool is_in_sheet() const { return is_in_sheet_; }
 
+  /// Sets by which part of the distances of the tolerance vertices may be off their surface.
+  void set_part_of_distances(double part) { part_of_distances_ = part; }
+
   /// Of the surfaces that regions begin with. Outside of sheets they may have begun across a border.
   double largest_first_residual() const {
     const bool is_strict = !tolerance_.is_noisy() && is_in_sheet_;
-    return is_strict ? exact * tolerance_.distance : tolerance_.largest_distance();
+    return is_strict ? exact * deviation() : largest_distance();
   }
 
   /// The region of a surface of that type which begins as a given neighbourhood of the seed.
@@ -91,6 +94,9 @@ class Region_growth {
   }
 
  private:
+  double deviation() const { return part_of_distances_ * tolerance_.distance; }
+  double largest_distance() const { return part_of_distances_ * tolerance_.largest_distance(); }
+
   /// 1 if the surface's normals point out of the solid, -1 if into it.
   double sign_of(const Analytic_surface& surface, const Patch& patch) const {
     constexpr std::size_t enough_faces = 50;
@@ -110,7 +116,7 @@ class Region_growth {
     with_type_of(surface, [&](const auto& s) {
       const auto is_near = [&](Index v) {  // asked for each face about a vertex, and computed once
         if (seen_[v] < unseen_)
-          seen_[v] = unseen_ + (std::abs(s.distance(mesh_.point(v))) <= tolerance_.largest_distance() ? 1 : 0);
+          seen_[v] = unseen_ + (std::abs(s.distance(mesh_.point(v))) <= largest_distance() ? 1 : 0);
         return seen_[v] > unseen_;
       };
       const auto lies_on = [&](Index f) {
@@ -127,13 +133,13 @@ class Region_growth {
   /// A surface grown on a free form ends where the distance becomes too large; vertices of a true one are exact, unless
   /// there is noise.
   bool is_piece_of_free_form(const Analytic_surface& surface) const {
-    return !tolerance_.is_noisy() && surface.residual > exact * tolerance_.distance;
+    return !tolerance_.is_noisy() && surface.residual > exact * deviation();
   }
 
   /// Whether a region that is still growing will be such a piece.
   bool has_gone_astray(const Analytic_surface& surface) const {
     constexpr double astray = 2. / 3;  // of the expected deviation; overlap .9733 at a third, .9749 at all of it
-    return !tolerance_.is_noisy() && is_in_sheet_ && surface.residual > astray * tolerance_.distance;
+    return !tolerance_.is_noisy() && is_in_sheet_ && surface.residual > astray * deviation();
   }
 
   /// The number of vertices explained, each the less the farther it is off, beyond those that determine the surface.
@@ -141,7 +147,7 @@ class Region_growth {
     return with_type_of(region.surface, [&](const auto& s) {
       double sum = -s.degrees_of_freedom;
       for (const Index v : region.patch.vertices) {
-        const double d = s.distance(mesh_.point(v)) / tolerance_.largest_distance();
+        const double d = s.distance(mesh_.point(v)) / largest_distance();
         sum += 1 - d * d;
       }
       return sum;
@@ -161,6 +167,7 @@ class Region_growth {
   std::vector<std::uint32_t> seen_;   // by vertex: `unseen_` if it is off the surface that is flooded, 1 more if on it
   std::uint32_t unseen_ = 0;          // even, and larger from flood to flood
   bool is_in_sheet_ = false;
+  double part_of_distances_ = 1;
 };
 
 /// Whether a region explains so much more than another that a more complex surface is worth it.
