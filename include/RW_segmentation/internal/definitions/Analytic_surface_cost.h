@@ -31,17 +31,17 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
   constexpr double least_growth = 1.05;
   const bool is_given = noise >= 0;
   Surface_tolerance tolerance(mesh, is_given ? noise : 0);
-  if (is_given && !tolerance.is_noisy()) return tolerance;
+  if (is_given && !tolerance.has_noise()) return tolerance;
   Noise_estimate strict(mesh, Surface_tolerance(mesh, 0), trials);
   if (!is_given) tolerance = Surface_tolerance(mesh, strict.standard_deviation());
-  for (int i = 1; !is_given && tolerance.is_noisy() && i < most_estimates; ++i) {
+  for (int i = 1; !is_given && tolerance.has_noise() && i < most_estimates; ++i) {
     const double deviation = Noise_estimate(mesh, tolerance, trials).standard_deviation();
     if (deviation <= least_growth * tolerance.noise) break;
     tolerance = Surface_tolerance(mesh, deviation);
   }
   // What reaches across edges has deviations in common: on CAD solids (`_5k`) under noise of .1 %, overlap .894 where the
   // last estimate tells the kind, .903 where the first does.
-  return tolerance.is_noisy() ? Surface_tolerance(mesh, tolerance.noise, strict.kind()) : tolerance;
+  return tolerance.has_noise() ? Surface_tolerance(mesh, tolerance.noise, strict.kind()) : tolerance;
 }
 
 RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh, double noise) {

@@ -34,7 +34,7 @@ class Noise_estimate {
   Noise_estimate(const Dual_mesh& mesh, const Surface_tolerance& expected, std::vector<Index> trials)
       : mesh_(mesh),
         trial_faces_(std::move(trials)),
-        expects_noise_(expected.is_noisy()),
+        expects_noise_(expected.has_noise()),
         patches_(mesh, edge_angles(mesh), [&](Index e) {
           constexpr double sharp = radians(60);  // what a little noise hardly makes of flat edges
           return std::max(sharp, expected.angle_of_noise(mesh.graph().faces_of(e)));

@@ -112,7 +112,7 @@ struct Tolerated_mesh {
   /// \param segment_of_face each segment is kept in one box; empty if there are none
   Tolerated_mesh(const Dual_mesh& whole, double noise, const std::vector<std::size_t>& segment_of_face = {})
       : parts(whole, segment_of_face), tolerance(surface_tolerance(parts.mesh(), noise)) {
-    if (!parts.has_small_parts() || !tolerance.is_noisy()) return;
+    if (!parts.has_small_parts() || !tolerance.has_noise()) return;
     parts = Parts_in_boxes(whole);
     tolerance = surface_tolerance(whole, noise);
   }

@@ -137,13 +137,14 @@ class Surface_growing {
     // (`_t`), .9923 and .0012 (`_30k`), and `_5k` as before; a third, a 27th, 12 vertices, and the place before the narrow
     // regions are as good.
     constexpr double exact_distances = 1. / 9;
+    constexpr double few = 2.9;  // six vertices of a plane gain 3, but for rounding
     return {{coarse, 12, 0, false, false, ruled},
             {first, 64, 0, false, true},
             {other, 12},
             {other, 12, 0, true},
             {other, 24, 0, false, true, {}, exact_distances},
             {coarse, 4, 0, false, false, curved},
-            {other, 3, 10}};
+            {other, few, 10}};
   }
 
   /// Numbers of vertices of the neighbourhoods that surfaces are fitted to first.
