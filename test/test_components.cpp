@@ -4,6 +4,7 @@
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/Paper_segmentation.h>
 #include <RW_segmentation/Progress.h>
+#include <RW_segmentation/internal/threads.h>
 #include <RW_segmentation/segmentation_via_random_walks.h>
 #include <RW_segmentation/smoothed_face_normals.h>
 
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -375,6 +377,29 @@ TEST(Components, PassOnWhatACallbackThrows) {
   Face_labels<Mesh> ids(mesh);
   EXPECT_THROW(segmentation_via_random_walks(mesh, ids.map(), CGAL::parameters::callback(callback)), Enough);
   EXPECT_EQ(ids.values().front(), ids.untouched);
+}
+
+TEST(ParallelLoops, DoAllOfTheirWorkInsideOneThatAnErrorEnds) {
+  constexpr std::size_t number = 1000;
+  std::atomic<bool> has_begun = false, has_failed = false;
+  std::atomic<std::size_t> done = 0;
+  const auto wait_for = [](const std::atomic<bool>& event) {
+    for (int i = 0; i < 100 && !event; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  const auto task = [&](std::size_t begin, std::size_t) {
+    if (begin == 0) {
+      wait_for(has_begun);
+      has_failed = true;
+      throw std::runtime_error("enough");
+    }
+    has_begun = true;
+    wait_for(has_failed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until the error is known
+    internal::parallel_stretches(
+        number, [&](std::size_t from, std::size_t to) { done += to - from; }, 1);
+  };
+  EXPECT_THROW(internal::parallel_stretches(2, task, 1), std::runtime_error);
+  EXPECT_TRUE(!has_begun || done == number) << done;
 }
 
 TEST(Components, OfThePaperAreThoseOfTheWhole) {

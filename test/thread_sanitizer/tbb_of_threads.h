@@ -38,6 +38,14 @@ class global_control {
   std::size_t before_;
 };
 
+/// An error ends nothing but what threw it.
+class task_group_context {
+ public:
+  enum kind_type { isolated };
+
+  explicit task_group_context(kind_type) {}
+};
+
 /// Tasks, each in a thread of its own.
 class task_group {
  public:
@@ -79,7 +87,7 @@ class task_group {
 struct simple_partitioner {};
 
 template <class Index, class Task>
-void parallel_for(Index begin, Index end, const Task& task, simple_partitioner = {}) {
+void parallel_for(Index begin, Index end, const Task& task, simple_partitioner, task_group_context&) {
   std::atomic<Index> next{begin};
   const auto work = [&] {
     for (Index i = next++; i < end; i = next++) task(i);
@@ -103,12 +111,13 @@ class blocked_range {
 };
 
 template <class Index, class Work>
-void parallel_for(const blocked_range<Index>& range, const Work& work) {
+void parallel_for(const blocked_range<Index>& range, const Work& work, task_group_context& context) {
   constexpr Index length = 64;
   const Index number = range.end() - range.begin();
-  parallel_for(Index(0), (number + length - 1) / length, [&](Index i) {
+  const auto stretch = [&](Index i) {
     work(blocked_range<Index>(range.begin() + i * length, range.begin() + std::min((i + 1) * length, number)));
-  });
+  };
+  parallel_for(Index(0), (number + length - 1) / length, stretch, simple_partitioner(), context);
 }
 
 template <class Value>

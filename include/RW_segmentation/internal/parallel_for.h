@@ -10,6 +10,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 #endif
 
 #include <algorithm>
@@ -50,7 +51,8 @@ template <class ConcurrencyTag, class Task>
 void parallel_tasks(std::size_t number, const Task& task) {
   if constexpr (has_threads<ConcurrencyTag>()) {
 #ifdef CGAL_LINKED_WITH_TBB
-    tbb::parallel_for(std::size_t(0), number, task, tbb::simple_partitioner());
+    tbb::task_group_context context(tbb::task_group_context::isolated);  // as in `run_stretches()`
+    tbb::parallel_for(std::size_t(0), number, task, tbb::simple_partitioner(), context);
 #endif
   } else {
     for (std::size_t i = 0; i < number; ++i) task(i);
@@ -76,10 +78,12 @@ void parallel_for(std::size_t number, const MakeWorker& make_worker, const Progr
 #ifdef CGAL_LINKED_WITH_TBB
     tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
     in_stretches([&](std::size_t begin, std::size_t end) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), [&](const auto& range) {
+      const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
         auto& worker = workers.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i) worker(i);
-      });
+      };
+      tbb::task_group_context context(tbb::task_group_context::isolated);  // as in `run_stretches()`
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end), work, context);
     });
 #endif
   } else {

@@ -26,8 +26,11 @@ RW_SEGMENTATION_INLINE void run_stretches(std::size_t number, std::size_t length
     return;
   }
 #ifdef CGAL_LINKED_WITH_TBB
+  // An error that ends a loop around this one would end this one as well, without a word, and with half of its work done.
+  tbb::task_group_context context(tbb::task_group_context::isolated);
   // The thread that waits for its own stretches must not begin with something long instead.
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t(0), stretches, task, tbb::simple_partitioner()); });
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(std::size_t(0), stretches, task, tbb::simple_partitioner(), context); });
 #else
   for (std::size_t stretch = 0; stretch < stretches; ++stretch) task(stretch);
 #endif
@@ -35,9 +38,14 @@ RW_SEGMENTATION_INLINE void run_stretches(std::size_t number, std::size_t length
 
 RW_SEGMENTATION_INLINE void run_at_the_same_time(Task_reference<> in_background, Task_reference<> here) {
 #ifdef CGAL_LINKED_WITH_TBB
+  bool has_begun = false;
+  const auto background = [&] {
+    has_begun = true;
+    in_background();
+  };
   tbb::this_task_arena::isolate([&] {  // as above
     tbb::task_group group;
-    group.run(in_background);
+    group.run(background);
     try {
       here();
     } catch (...) {
@@ -47,6 +55,7 @@ RW_SEGMENTATION_INLINE void run_at_the_same_time(Task_reference<> in_background,
     }
     group.wait();
   });
+  if (!has_begun) background();  // an error has ended a loop around this
 #else
   here();
   in_background();
