@@ -294,21 +294,23 @@ static internal::Surface_tolerance tolerance_of(const solids::Solid& solid) {
   return internal::surface_tolerance(dual, -1);
 }
 
-TEST(SegmentationIntoSurfaces, FindsTheFacesUnderNoiseThatHardlyTurnsThem) {
-  constexpr double percent = 0.01;
+TEST(SegmentationIntoSurfaces, FindsTheSameFacesUnderNoiseThatHardlyTurnsThem) {
   std::size_t found = 0;
-  for (const solids::Meshing& meshing : {solids::even(0.1), solids::by_kernel()})
+  for (const solids::Meshing& meshing : {solids::even(0.15), solids::by_kernel()})
     for (const solids::Solid& clean : solids::all(meshing)) {
-      const solids::Solid solid = solids::with_noise(clean, percent);
-      // In a few slender triangles it may be a free form as well, and is reckoned with as one.
-      if (!internal::may_be_independent(tolerance_of(solid).noise_kind)) continue;
-      SCOPED_TRACE(clean.name + (meshing.is_even ? ", even" : ", by a kernel"));
-      const Labels segments = segments_of(solid);
-      EXPECT_LE(rand_error(segments, solid.label), 0.01);
-      for (const double overlap : best_overlaps(solid, segments)) EXPECT_GE(overlap, 0.9);
-      ++found;
+      const std::vector<double> without_noise = best_overlaps(clean, segments_of(clean));
+      for (const double percent : {0.0005, 0.01}) {  // half of what counts as exact, and twenty times as much
+        const solids::Solid solid = solids::with_noise(clean, percent);
+        // In a few slender triangles it may be a free form as well, and is reckoned with as one.
+        if (!internal::may_be_independent(tolerance_of(solid).noise_kind)) continue;
+        SCOPED_TRACE(testing::Message() << clean.name << (meshing.is_even ? ", even, " : ", by a kernel, ") << percent);
+        const std::vector<double> overlaps = best_overlaps(solid, segments_of(solid));
+        ASSERT_EQ(overlaps.size(), without_noise.size());
+        for (std::size_t i = 0; i < overlaps.size(); ++i) EXPECT_GE(overlaps[i], 0.9 * without_noise[i]);
+        ++found;
+      }
     }
-  EXPECT_GE(found, 13u);
+  EXPECT_GE(found, 26u);
 }
 
 TEST(SegmentationIntoSurfaces, TakesNoFreeFormForSlightNoise) {
@@ -323,6 +325,21 @@ TEST(SegmentationIntoSurfaces, TakesNoFreeFormForSlightNoise) {
   ASSERT_TRUE(tolerance.has_noise());
   EXPECT_TRUE(tolerance.is_noisy());
   EXPECT_FALSE(internal::Surface_tolerance(dual, tolerance.noise, internal::Noise_kind::independent).is_noisy());
+}
+
+TEST(SegmentationIntoSurfaces, TellsSlightNoiseByFewFacesBesideAFreeForm) {
+  solids::Builder builder("waves and a plane");
+  builder.grid(builder.add({}), 40, 40, [&](double u, double v) -> solids::Point {
+    return {u, v, 0.1 * (std::sin(7 * u + 2 * v) + std::cos(5 * v - 3 * u * v))};
+  });
+  builder.grid(builder.add({}), 16, 16, [&](double u, double v) -> solids::Point { return {2 + u / 2, v / 2, 0}; });
+  const solids::Solid clean = std::move(builder).solid();
+  EXPECT_FALSE(tolerance_of(clean).has_noise());
+  constexpr double percent = 0.001;
+  const internal::Surface_tolerance tolerance = tolerance_of(solids::with_noise(clean, percent));
+  EXPECT_TRUE(tolerance.has_noise());
+  EXPECT_FALSE(tolerance.is_noisy());
+  EXPECT_NEAR(100 * tolerance.noise, percent, 0.5 * percent);
 }
 
 TEST(SegmentationIntoSurfaces, FindsLongTrianglesOfPipesUnderNoise) {

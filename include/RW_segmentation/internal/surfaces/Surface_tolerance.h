@@ -40,8 +40,13 @@ struct Surface_tolerance {
   /// Vertices of CAD models are that exact or nearly always much more so. At half of it, overlap .9705 in place of .9744
   /// (`_t`); at twice, .9756, but .9742 in place of .9766 (`_5k`).
   static constexpr double cad_exactness = 1e-5;
+  /// Deviations of the vertices that are reckoned with under slight noise. A third of it is what whole regions may be off
+  /// (`Region_growth`): 1.2 deviations. At 1.1 and 1.3, the same overlaps (`_5k`, noise of .005 and .01 %).
+  static constexpr double slight_distances = 3.6;
+  /// Slight noise of at most so much is within what counts as exact.
+  static constexpr double least_slight_noise = cad_exactness / slight_distances;
 
-  double noise = 0;                             ///< standard deviation of the vertices, 0 if it is below `distance`
+  double noise = 0;                             ///< standard deviation of the vertices, 0 if they count as exact
   Noise_kind noise_kind = Noise_kind::unclear;  ///< where there is noise
   double distance = 0;                          ///< the standard deviation that is reckoned with
   std::vector<double> normal_angle;             ///< between a face and the surface that it is part of, in radians
@@ -63,17 +68,14 @@ struct Surface_tolerance {
     // and .3 %, .781 and .748 on CAD solids (`_5k`); at 2 .936, .948, .776, .751; at 3 .954, .945, .775, .743. With whole
     // tilts, made solids have .013 less.
     constexpr double smooth_distances = 2.5, smooth_tilts = 0.5;
-    // A third of it is what whole regions may be off (`Region_growth`): 1.2 deviations of the vertices. At 1.1 and 1.3, the
-    // same overlaps (`_5k`, noise of .005 and .01 %).
-    constexpr double slight_distances = 3.6;
     const bool is_smooth = kind == Noise_kind::smooth;
-    noise = deviation > cad_exactness ? deviation : 0;
-    const std::vector<double> tilt = tilts_of_faces(mesh);
-    is_slight_ = may_be_independent(kind) && is_slight(tilt);
+    const std::vector<double> tilt = tilts_of_faces(mesh, deviation);
+    is_slight_ = may_be_independent(kind) && is_slight(deviation, tilt);
+    noise = deviation > (is_slight_ ? least_slight_noise : cad_exactness) ? deviation : 0;
     distance = std::max((is_smooth ? smooth_distances : is_slight_ ? slight_distances : 1) * deviation, cad_exactness);
+    const double tilts_of_noise = has_noise() ? (is_smooth ? smooth_tilts : 1) * tilts : 0;
     normal_angle.reserve(tilt.size());
-    for (const double t : tilt)
-      normal_angle.push_back(std::min(tessellation + (is_smooth ? smooth_tilts : 1) * tilts * t, any_angle));
+    for (const double t : tilt) normal_angle.push_back(std::min(tessellation + tilts_of_noise * t, any_angle));
   }
 
   bool has_noise() const { return noise > 0; }
@@ -128,25 +130,25 @@ struct Surface_tolerance {
 
  private:
   /// How far noise turns the normal of each face, in radians.
-  std::vector<double> tilts_of_faces(const Dual_mesh& mesh) const {
+  static std::vector<double> tilts_of_faces(const Dual_mesh& mesh, double deviation) {
     constexpr double least_height = 0.1;  // of a face, in deviations; lower ones have any normal
     std::vector<double> tilts(mesh.number_of_faces(), 0);
-    for (Index f = 0; has_noise() && f < mesh.number_of_faces(); ++f) {
+    for (Index f = 0; deviation > 0 && f < mesh.number_of_faces(); ++f) {
       const double height = 2 * mesh.area(f) / std::max(extent(mesh, f), std::numeric_limits<double>::min());
-      tilts[f] = noise / std::max(height, least_height * noise);
+      tilts[f] = deviation / std::max(height, least_height * deviation);
     }
     return tilts;
   }
 
   /// Whether noise is small beside details of the shape, and turns half of the faces by little.
-  bool is_slight(std::vector<double> tilts) const {
+  static bool is_slight(double deviation, std::vector<double> tilts) {
     // Of the diagonal. Looked for as under noise and as without it, overlaps of made solids are .86 and .99 under .03 %, .989
     // and .972 under .06 %; on CAD solids (`_5k`) .918 and .929, .923 and .917.
     constexpr double largest_noise = 4e-4;
     // Likewise, by the turn of half of the faces: .90 and .99 up to .015, .95 and .97 from there to .03, .97 and .97 to .045,
     // .95 and .93 to .07, less beyond (made solids, `_5k`, `_30k` and `_t`, noise of .01 to .06 %).
     constexpr double slight_turn = 0.03;  // radians
-    if (!has_noise() || noise > largest_noise || tilts.empty()) return false;
+    if (deviation > largest_noise || tilts.empty()) return false;
     const auto middle = tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2);
     std::nth_element(tilts.begin(), middle, tilts.end());
     return *middle <= slight_turn;
