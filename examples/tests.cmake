@@ -152,6 +152,10 @@ if(TARGET segment_mesh AND data_dir)
         --config tiles=tiles work=work outputs=outputs "options=${options}")
     set_tests_properties(example.tiles.snakemake${options} PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
   endforeach()
+  add_test(NAME example.collection.snakemake.files
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_snakemake.sh $<TARGET_FILE:segment_mesh> ${meshes}
+      ${CMAKE_CURRENT_BINARY_DIR}/tests/collection.snakemake.files ${collections})
+  set_tests_properties(example.collection.snakemake.files PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
 endif()
 
 # The tool's own tests run the tool.
