@@ -55,22 +55,35 @@ def run_step(command: list[str], step: str, tile: int | None) -> None:
         raise RuntimeError(f"step {step}{where}: exit code {result.returncode}: {message}")
 
 
+def version_of(tile: str) -> list[int] | None:
+    """Tell a file from others that take its place, also from older ones."""
+    try:
+        status = Path(tile).stat()
+    except OSError:
+        return None
+    return [status.st_size, status.st_mtime_ns]
+
+
 def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles: list[str], request: list[str]) -> None:
     """Remove what later steps have left for other options or folders, and all steps for tiles that have changed."""
-    surveys = [work / f"survey_{tile}" for tile in range(len(tiles))]
+    versions = [version_of(tile) for tile in tiles]
+    versions_file = work / "versions.json"
+    old_versions = json.loads(versions_file.read_text()) if versions_file.exists() else []
     is_old = False
-    for survey, tile in zip(surveys, tiles, strict=True):
-        if survey.exists() and survey.stat().st_mtime < Path(tile).stat().st_mtime:
-            survey.unlink()
+    for tile, version in enumerate(versions):
+        survey = work / f"survey_{tile}"
+        if version is None or old_versions[tile : tile + 1] != [version]:
+            survey.unlink(missing_ok=True)
         is_old = is_old or not survey.exists()
     request_file = work / "request.json"
     is_other = not request_file.exists() or request_file.read_text() != json.dumps(request)
     names = [step for step, _, _ in steps]
-    first = names.index("plan") if is_old else names.index("merge") if is_other else len(names)
-    for _, is_of_each_tile, file in steps[first:]:
+    first = "plan" if is_old else "merge" if is_other else "report"  # which tells each time what failed
+    for _, is_of_each_tile, file in steps[names.index(first) :]:
         for place in range(len(tiles)) if is_of_each_tile else [None]:
             (work / (file if place is None else f"{file}_{place}")).unlink(missing_ok=True)
     request_file.write_text(json.dumps(request))
+    versions_file.write_text(json.dumps(versions))  # of before the steps: what changes meanwhile is done again
 
 
 def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options: list[str]) -> None:

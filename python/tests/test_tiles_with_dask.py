@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -61,6 +62,19 @@ def test_other_options_and_folders_take_the_last_steps(tool: Path, tiles: list[s
     assert contents(tmp_path / "other") == contents(tmp_path)
 
 
+def test_a_tile_is_segmented_anew_where_an_older_file_takes_its_place(
+    tool: Path, tiles: list[str], data: Path, tmp_path: Path
+) -> None:
+    tile = tmp_path / "tile.off"
+    for mesh, age in (("tripod.off", 0), ("u.off", 1000000)):
+        shutil.copyfile(data / mesh, tile)
+        os.utime(tile, (tile.stat().st_mtime - age,) * 2)
+        of_recipe = [*command(tmp_path, [tiles[0], str(tile)]), "--workers", "1"]
+        subprocess.run(of_recipe, env=environment(tool), check=True)
+        subprocess.run([tool, tiles[0], tile, "--tiled", "--quiet", "--labels", f"{tmp_path}/%.seg"], check=True)
+        assert contents(tmp_path / "labels") == contents(tmp_path)
+
+
 def test_surfaces_are_those_of_the_tool(tool: Path, tiles: list[str], tmp_path: Path) -> None:
     subprocess.run([tool, *tiles, "--tiled", "--quiet", "--engineering", "--labels", f"{tmp_path}/%.seg"], check=True)
     subprocess.run([*command(tmp_path, tiles), "--options=--engineering"], env=environment(tool), check=True)
@@ -94,3 +108,18 @@ def test_a_step_that_fails_is_told(tool: Path, tiles: list[str], tmp_path: Path)
     )
     assert result.returncode != 0
     assert "step merge: exit code 3: segment_mesh:" in result.stderr
+
+
+def test_a_tile_that_cannot_be_read_is_told_each_time(tool: Path, tiles: list[str], tmp_path: Path) -> None:
+    broken = tmp_path / "broken.off"
+    broken.write_text("OFF\n")
+    for _ in range(2):
+        result = subprocess.run(
+            [*command(tmp_path, [str(broken), tiles[1]]), "--workers", "1"],
+            env=environment(tool),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert result.returncode != 0
+        assert "1 of 2 tiles could not be read" in result.stderr
