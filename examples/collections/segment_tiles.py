@@ -120,6 +120,8 @@ def main() -> None:
     parser.add_argument("--workers", type=int, help="processes of the one that is started here")
     parser.add_argument("--options", default="", help="options of segment_mesh, such as --segments 12")
     arguments = parser.parse_args()
+    if all(version_of(tile) is None for tile in arguments.tiles):  # wrong paths would claim the work folder
+        parser.error(f"{arguments.tiles[0]}: no such file, nor any of the others")
     cluster = arguments.scheduler or LocalCluster(
         n_workers=arguments.workers, threads_per_worker=1, dashboard_address=":0"
     )

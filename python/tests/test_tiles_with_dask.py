@@ -110,6 +110,19 @@ def test_a_step_that_fails_is_told(tool: Path, tiles: list[str], tmp_path: Path)
     assert "step merge: exit code 3: segment_mesh:" in result.stderr
 
 
+def test_wrong_paths_leave_nothing(tool: Path, tmp_path: Path) -> None:
+    result = subprocess.run(
+        command(tmp_path, ["none/0.off", "none/1.off"]),
+        env=environment(tool),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode != 0
+    assert "none/0.off: no such file" in result.stderr
+    assert not (tmp_path / "work").exists()
+
+
 def test_a_tile_that_cannot_be_read_is_told_each_time(tool: Path, tiles: list[str], tmp_path: Path) -> None:
     broken = tmp_path / "broken.off"
     broken.write_text("OFF\n")
