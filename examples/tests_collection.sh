@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tests_collection.sh PROGRAM SEGMENT_MESH DATA_MESHES FOLDER COMMAND ...
 # Runs a recipe for a collection, of which PROGRAM is needed, on ten meshes, one of which is broken: the others must be
-# segmented all the same. Then the mesh is mended, and the recipe must do it alone. The recipe works in FOLDER, where it
+# segmented all the same. Then the mesh is mended and another one added, and the recipe must do these alone. The recipe works in FOLDER, where it
 # finds `meshes` and writes `outputs`. Returns 77 where the program is missing; in CI (CI=true) that is a failure.
 set -euo pipefail
 program=$1 tool=$2 data=$3 folder=$4
@@ -27,8 +27,9 @@ head -n 5 "$data/hand.off" >meshes/hand.off
 for name in "${names[@]:1}"; do [ -s "outputs/$name.seg" ] || fail "$name has not been segmented"; done
 [ ! -e outputs/hand.seg ] || fail "a broken mesh was segmented"
 cp "$data/hand.off" meshes/
+cp "$data/anchor.off" meshes/A.off  # the first by its name
 touch marker
 "$@" || fail "the second run failed"
 [ -s outputs/hand.seg ] || fail "the second run did not segment the mended mesh"
-again=$(find outputs -name '*.seg' -newer marker)
-[ "$again" = outputs/hand.seg ] || fail "the second run wrote $again"
+again=$(find outputs -name '*.seg' -newer marker | LC_ALL=C sort | xargs)
+[ "$again" = "outputs/A.seg outputs/hand.seg" ] || fail "the second run wrote $again"

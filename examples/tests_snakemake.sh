@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: MIT
 # tests_snakemake.sh SEGMENT_MESH DATA_MESHES FOLDER RECIPES
 # What the recipes for Snakemake do with files that Snakemake by itself mistakes: those of a name with braces are refused
-# before anything is made, an older file in the place of another one is segmented anew, commas stay in their column. Works
-# in FOLDER. Returns 77 where Snakemake is missing; in CI (CI=true) that is a failure.
+# before anything is made, an older file in the place of another one is segmented anew, other options and folders are taken,
+# commas stay in their column. Works in FOLDER. Returns 77 where Snakemake is missing; in CI (CI=true) that is a failure.
 set -euo pipefail
 tool=$1 data=$2 folder=$3 recipes=$4
 PATH=$(dirname "$tool"):$PATH
 fail() { echo "FAILED: $1"; exit 1; }
-segment() { snakemake --quiet --snakefile "$recipes/Snakefile" --cores 2 --config meshes="$1" outputs="$2"; }
-segment_tiles() {
-  snakemake --quiet --snakefile "$recipes/Snakefile_tiles" --cores 2 --config tiles="$1" work="$2" outputs="$3"
+segment() {  # MESHES OUTPUTS OPTIONS
+  snakemake --quiet --snakefile "$recipes/Snakefile" --cores 2 --config meshes="$1" outputs="$2" options="${3:-}"
+}
+segment_tiles() {  # TILES WORK LABELS OPTIONS
+  snakemake --quiet --snakefile "$recipes/Snakefile_tiles" --cores 2 \
+    --config tiles="$1" work="$2" outputs="$3" options="${4:-}"
 }
 refuses() {  # MESSAGE OUTPUTS COMMAND ...
   local message=$1 outputs=$2
@@ -20,6 +23,7 @@ refuses() {  # MESSAGE OUTPUTS COMMAND ...
   [ ! -e "$outputs" ] || fail "$*: left $outputs"
 }
 faces() { wc -l <"$1"; }
+labels() { cat "$@" | sort --unique | wc -l; }
 
 if ! command -v snakemake >/dev/null; then
   [ "${CI:-}" != true ] || fail "snakemake is not installed"
@@ -51,3 +55,10 @@ segment meshes outputs || fail "the second run of the recipe for collections fai
 segment_tiles meshes work 'la{bels}' || fail "the second run of the recipe for tiles failed"
 [ "$(faces outputs/a,b.seg)" = 320 ] || fail "an older mesh went unnoticed"
 [ "$(faces 'la{bels}/a,b.seg')" = 320 ] || fail "an older tile went unnoticed"
+
+segment meshes outputs '--segments 5' || fail "the recipe for collections failed with other options"
+segment_tiles meshes work 'la{bels}' '--segments 7' || fail "the recipe for tiles failed with other options"
+[ "$(labels outputs/c.seg)" = 5 ] || fail "other options for meshes went unnoticed"
+[ "$(labels 'la{bels}'/*.seg)" = 7 ] || fail "other options for tiles went unnoticed"
+segment_tiles meshes work elsewhere '--segments 7' || fail "the recipe for tiles failed with another folder"
+diff -r 'la{bels}' elsewhere || fail "another folder for labels went unnoticed"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Segments all meshes of a folder, as many at a time as there are cores. Run again, it does what is left and what failed.
+# Segments all meshes of a folder, as many at a time as there are cores. Run again, it does what is left, failed, was added or
+# is out of date.
 #
 #   parallel.sh MESH_FOLDER OUTPUT_FOLDER [option of segment_mesh ...]
 #
@@ -9,7 +10,10 @@ set -euo pipefail
 meshes=$1
 outputs=$2
 shift 2
+same=$(find "$meshes" -type f -printf '%f\n' | sed 's/[.]gz$//; s/[.][^.]*$//' | sort | uniq --repeated)
+[ -z "$same" ] || { echo "several meshes have the name $same, but for how it ends or its folder" >&2; exit 1; }
 mkdir -p "$outputs"
+files=${outputs//%/%%}/%  # the name of the mesh stands for the second one
 find "$meshes" -type f | sort |
-  parallel --joblog "$outputs/jobs.log" --resume-failed --quote \
-    segment_mesh {} --quiet --labels "$outputs/{/.}.seg" --report "$outputs/{/.}.json" "$@"
+  parallel --joblog "$outputs/jobs.log" --quote \
+    segment_mesh {} --resume --quiet --labels "$files.seg" --report "$files.json" "$@"
