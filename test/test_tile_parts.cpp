@@ -218,6 +218,24 @@ TEST(PartsOfTiles, DoNotMeetInASingleVertex) {
   EXPECT_EQ(parts_of({as_tile(left), as_tile(right)}, false).parts.size(), 1U);
 }
 
+TEST(PartsOfTiles, AreRefusedUnderATolerancePastTheirEdges) {
+  const Cut_mesh mesh = octants(meshes::sphere(2));  // whose edges are .32 long at most
+  for (const double tolerance : {0.4, 0.9, 5.}) {
+    Tiled_segmentation by_walks;
+    Tiled_surfaces by_surfaces;
+    by_walks.tolerance = by_surfaces.tolerance = tolerance;
+    EXPECT_THROW(hierarchy_of_tiles(mesh.tiles, by_walks), std::invalid_argument) << tolerance;
+    EXPECT_THROW(hierarchy_of_tiled_surfaces(mesh.tiles, by_surfaces), std::invalid_argument) << tolerance;
+  }
+}
+
+TEST(PartsOfTiles, DoNotMeetInASingleVertexThatATileHasSeveralTimes) {
+  const Shape two_planes = meshes::together(meshes::plane(2), meshes::moved(meshes::plane(2), {-1, -1, 0}));
+  std::vector<std::vector<Tile_survey>> surveys;  // two vertices of each are at the origin, no others meet
+  for (const double scale : {1., 0.7}) surveys.push_back({survey_tile(as_tile(meshes::scaled(two_planes, scale)))});
+  for (const double tolerance : {0., 0.01}) EXPECT_EQ(parts_of_tiles(surveys, tolerance).parts.size(), 2U) << tolerance;
+}
+
 TEST(PartsOfTiles, FarSmallerThanTheWholeHaveABoxOfAHundredth) {
   const Cut_mesh mesh =
       in_cells(meshes::together(meshes::scaled(meshes::cube(2), 1000), meshes::moved(meshes::cube(2), {-5, 0, 0})), 3);

@@ -136,7 +136,8 @@ struct Tile_parts {
 /// Finds out which connected pieces belong together: those of different tiles that meet in more than one vertex. Each part
 /// has a unit box of its own, of a hundredth of the whole at least: coordinates are hardly more exact.
 /// \param surveys by tile, and by connected piece of it
-/// \param tolerance see `plan_tiles()`
+/// \param tolerance see `plan_tiles()`; pieces of which it makes one vertex of two belong together, and `border_of_tile()`
+/// refuses them
 /// \param by_component otherwise all are one part
 /// \throws std::invalid_argument as `plan_tiles()`
 /// Complexity: that of `plan_tiles()`.

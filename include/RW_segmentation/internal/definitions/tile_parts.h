@@ -12,6 +12,8 @@
 #include <RW_segmentation/internal/tiles/Joined_faces.h>
 #include <RW_segmentation/tile_plan.h>
 
+#include <Eigen/Core>
+
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -65,19 +67,53 @@ inline void share_walls(const Tile& tile, std::vector<Tile_piece>& pieces) {
   }
 }
 
-/// The pairs of tiles of a plan that have more than one vertex in common, as those have that share a side.
-inline std::vector<std::array<Dual_mesh::Index, 2>> tiles_beside_each_other(const Tile_plan& plan) {
+/// A vertex of the whole in a tile.
+struct Vertex_in_tile {
+  Dual_mesh::Index id, tile;
+  bool has_several_places;  ///< a tolerance that is too large, or an id that is given twice, makes one vertex of them
+};
+
+/// The vertices that tiles of a plan share, by id and tile.
+inline std::vector<Vertex_in_tile> vertices_in_tiles(const Tile_plan& plan, const std::vector<Tile_survey>& surveys) {
+  struct Place {
+    Vertex_in_tile vertex;
+    const Eigen::Vector3d* point;
+  };
+  std::vector<Place> places;
+  for (std::size_t t = 0; t < plan.tiles.size(); ++t) {
+    std::size_t border = 0;  // whose vertices rise, as do those that are shared
+    for (const auto& [vertex, id] : plan.tiles[t].shared_vertices) {
+      while (surveys[t].border_vertices[border] != vertex) ++border;
+      places.push_back({{id, static_cast<Dual_mesh::Index>(t), false}, &surveys[t].border_points[border]});
+    }
+  }
+  const auto order = [](const Place& place) { return std::array{place.vertex.id, place.vertex.tile}; };
+  std::sort(places.begin(), places.end(), [&](const Place& a, const Place& b) { return order(a) < order(b); });
+  std::vector<Vertex_in_tile> vertices;
+  for (std::size_t i = 0, first = 0; i < places.size(); ++i) {
+    if (i == 0 || order(places[i]) != order(places[first])) {
+      first = i;
+      vertices.push_back(places[i].vertex);
+    }
+    if (*places[i].point != *places[first].point) vertices.back().has_several_places = true;
+  }
+  return vertices;
+}
+
+/// The pairs of tiles of a plan that have more than one vertex in common, as those have that share a side. What is one vertex,
+/// but several places in both, counts as several, so that `border_of_tile()` sees the side between them and refuses it.
+inline std::vector<std::array<Dual_mesh::Index, 2>> tiles_beside_each_other(const Tile_plan& plan,
+                                                                            const std::vector<Tile_survey>& surveys) {
   using Index = Dual_mesh::Index;
-  std::vector<std::array<Index, 2>> places;  // the vertex, the tile
-  for (std::size_t t = 0; t < plan.tiles.size(); ++t)
-    for (const auto& shared : plan.tiles[t].shared_vertices) places.push_back({shared.id, static_cast<Index>(t)});
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  const std::vector<Vertex_in_tile> vertices = vertices_in_tiles(plan, surveys);
   std::vector<std::array<Index, 2>> pairs;  // once for each vertex
-  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
-    while (end < places.size() && places[end][0] == places[begin][0]) ++end;
+  for (std::size_t begin = 0, end = 0; begin < vertices.size(); begin = end) {
+    while (end < vertices.size() && vertices[end].id == vertices[begin].id) ++end;
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < end; ++j) pairs.push_back({places[i][1], places[j][1]});
+      for (std::size_t j = i + 1; j < end; ++j) {
+        const bool are_several = vertices[i].has_several_places && vertices[j].has_several_places;
+        pairs.insert(pairs.end(), are_several ? 2U : 1U, {vertices[i].tile, vertices[j].tile});
+      }
   }
   std::sort(pairs.begin(), pairs.end());
   std::vector<std::array<Index, 2>> result;
@@ -87,9 +123,9 @@ inline std::vector<std::array<Dual_mesh::Index, 2>> tiles_beside_each_other(cons
 }
 
 /// By tile of a plan: the lowest of those that it is connected to, itself included. To meet in one vertex connects nothing.
-inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan) {
+inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan, const std::vector<Tile_survey>& surveys) {
   boost::disjoint_sets_with_storage<> sets(plan.tiles.size());
-  for (const auto& [a, b] : tiles_beside_each_other(plan)) sets.union_set(std::size_t(a), std::size_t(b));
+  for (const auto& [a, b] : tiles_beside_each_other(plan, surveys)) sets.union_set(std::size_t(a), std::size_t(b));
   std::vector<Dual_mesh::Index> lowest(plan.tiles.size(), std::numeric_limits<Dual_mesh::Index>::max());
   std::vector<Dual_mesh::Index> connected;
   for (std::size_t piece = 0; piece < plan.tiles.size(); ++piece) {
@@ -245,7 +281,8 @@ RW_SEGMENTATION_INLINE Tile_parts parts_of_tiles(const std::vector<std::vector<T
     tile_of.resize(of_all.size(), static_cast<Dual_mesh::Index>(t));
   }
   const Tile_plan all = internal::plan_tiles(of_all, tile_of, tolerance);
-  const auto lowest = by_component ? internal::lowest_connected(all) : std::vector<Dual_mesh::Index>(of_all.size(), 0);
+  const auto lowest =
+      by_component ? internal::lowest_connected(all, of_all) : std::vector<Dual_mesh::Index>(of_all.size(), 0);
   Tile_parts result;
   result.box = all.box;
   result.places.resize(surveys.size());
