@@ -343,6 +343,96 @@ TEST_F(Tiles, AreSegmentedAnewWhereOlderFilesTakeTheirPlaces) {
   EXPECT_EQ(labels("tile_1.seg").size(), faces_[1]);
 }
 
+TEST_F(Tiles, ThatChangeBetweenStepsAreRefusedHoweverOldTheyAre) {
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  meshes::Shape other = meshes::two_spheres_with_neck(2.6, 0.35, 40);
+  for (std::size_t v = 0; v < other.points.size(); v += 2) other.points[v] *= 1.001;
+  const std::size_t faces = faces_[1];
+  write_tiles(other);
+  ASSERT_EQ(faces_[1], faces);
+  fs::last_write_time(path(name(1)), fs::file_time_type::clock::now() - std::chrono::hours(99));
+  const std::vector<std::vector<std::string>> steps = {{"--tile-step", "labels"},
+                                                       {"--tile-step", "labels", "--boundaries", "%.obj"},
+                                                       {"--tile-step", "strips", "--refine"}};
+  for (std::vector<std::string> step : steps) {
+    step.insert(step.end(), {"--tile", "1", "--tile-folder", "work"});
+    expect_failure(2, "tile_1.off: the file has changed", command(step));
+  }
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  const auto again = take_labels();
+  ASSERT_EQ(run(command({})).exit_code, 0);
+  EXPECT_EQ(take_labels(), again);
+}
+
+TEST_F(Tiles, WithPolygonsRefuseSmoothBoundariesBeforeTheWork) {
+  write(name(2), "OFF\n4 1 0\n9 0 0\n10 0 0\n10 1 0\n9 1 0\n4 0 1 2 3\n");
+  constexpr const char* refusal = "tile_2.off: face 0 is no triangle";
+  const auto in_folder = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"--tile-folder", "work"});
+    return command(more);
+  };
+  const std::vector<std::vector<std::string>> all_options = {
+      {"--refine"}, {"--boundaries", "%.obj"}, {"--smooth", "--boundaries", "%.obj"}, {"--refine", "--engineering"}};
+  for (const std::vector<std::string>& options : all_options) {
+    fs::remove_all(path("work"));
+    expect_failure(3, refusal, in_folder(options));
+    EXPECT_FALSE(fs::exists(path("work/parts")));
+  }
+  expect_failure(3, refusal, in_folder({"--refine", "--engineering", "--tile-step", "plan"}));
+
+  fs::remove_all(path("work"));
+  EXPECT_EQ(run(in_folder({})).exit_code, 0);
+  const auto labels = take_labels();
+  expect_failure(3, refusal, in_folder({"--refine"}));
+  EXPECT_EQ(run(in_folder({})).exit_code, 0);
+  EXPECT_EQ(take_labels(), labels);
+}
+
+TEST_F(Tiles, LeaveNothingOfCallsThatAreWrong) {
+  write("seeds.txt", "0,0,0=zero\n");
+  write("list.txt", "# none\n");
+  const auto elsewhere = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"none/0.off", "none/1.off", "--tiled", "--labels", "%.seg"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const std::vector<std::vector<std::string>> wrong_calls = {elsewhere({}),
+                                                             {"--list", "list.txt", "--tiled", "--labels", "%.seg"},
+                                                             command({"--constraints", "none/%.walls"}),
+                                                             command({"--report", "none/report.json"}),
+                                                             command({"--split", "none/%"}),
+                                                             command({"--report", "work/survey_0"}),
+                                                             command({"--seeds-file", "none"}),
+                                                             command({"--seeds-file", "seeds.txt"}),
+                                                             command({"--seed", "3=1"}),
+                                                             command({"--tile-step", "sing"}),
+                                                             command({"--tile-step", "survey"}),
+                                                             command({"--tile-step", "survey", "--tile", "4"}),
+                                                             command({"--tile-step", "plan", "--tile", "0"})};
+  for (std::vector<std::string> call : wrong_calls) {
+    call.insert(call.end(), {"--tile-folder", "work"});
+    const Result result = run(call);
+    EXPECT_NE(result.exit_code, 0) << testing::PrintToString(call);
+    EXPECT_NE(result.errors, "") << testing::PrintToString(call);
+    EXPECT_FALSE(fs::exists(path("work"))) << testing::PrintToString(call);
+    fs::remove_all(path("work"));
+    fs::create_directory(path("work"));
+    EXPECT_NE(run(call).exit_code, 0) << testing::PrintToString(call);
+    EXPECT_TRUE(fs::is_empty(path("work"))) << testing::PrintToString(call);  // it was there before
+    fs::remove_all(path("work"));
+  }
+}
+
+TEST_F(Tiles, ThatAreOutOfReachForATimeKeepTheirFolder) {
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  const auto labels = take_labels();
+  for (std::size_t t = 0; t < 4; ++t) fs::rename(path(name(t)), path(name(t) + ".away"));
+  EXPECT_EQ(run(command({"--tile-folder", "work"})).exit_code, 2);
+  for (std::size_t t = 0; t < 4; ++t) fs::rename(path(name(t) + ".away"), path(name(t)));
+  ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
+  EXPECT_EQ(take_labels(), labels);
+}
+
 TEST_F(Tiles, ThatCouldNotBeReadAreReadAgain) {
   const std::string content = content_of(path(name(1)));
   write(name(1), "nothing");

@@ -126,7 +126,7 @@ class Step_reader {
 /// Names the content of a file and tells whether it is whole.
 struct Step_header {
   std::array<char, 16> name{};
-  std::uint64_t size = 0, checksum = 0, version = 7;
+  std::uint64_t size = 0, checksum = 0, version = 8;
 
   Step_header() = default;
   Step_header(std::string_view kind, std::string_view content)

@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -151,6 +152,20 @@ class Tile_steps {
     return line_of(parameters);
   }
 
+  /// Refuses tiles whose boundaries cannot be smoothed or cut, which only the last steps would find out.
+  /// \throws Argument_out_of_range if boundaries are asked for and a face that was surveyed is no triangle
+  void check_triangles() const {
+    if (!treats_boundaries(options_)) return;
+    for (std::size_t t = 0; t < tasks_.size(); ++t) {
+      std::string failure, sources;
+      Index polygon = no_face;
+      folder_.read_of_tile_into(t, "survey", failure, sources, polygon);
+      if (polygon != no_face)
+        throw Argument_out_of_range(tasks_[t].mesh + ": face " + std::to_string(polygon) +
+                                    " is no triangle: boundaries are smoothed and cut on triangle meshes only");
+    }
+  }
+
   /// The tiles that could not be read, each with the reason.
   std::vector<std::string> failures() const {
     std::vector<std::string> failures;
@@ -167,6 +182,7 @@ class Tile_steps {
  private:
   using Index = RW::Dual_mesh::Index;
   using Sides = std::vector<std::array<Index, 2>>;  // by their vertices
+  static constexpr Index no_face = std::numeric_limits<Index>::max();
 
   static std::vector<std::string> names_of(const std::vector<Task>& tiles) {
     std::vector<std::string> names;
@@ -226,10 +242,20 @@ class Tile_steps {
     return sources.dump();
   }
 
-  /// Refuses a tile that is not what was surveyed. \throws mesh_files::Unreadable_file
-  void check_faces(std::size_t tile, std::size_t faces, std::size_t surveyed) const {
-    if (faces != surveyed)
-      throw mesh_files::Unreadable_file(tasks_[tile].mesh + ": the file has changed since the step \"survey\" read it");
+  /// Refuses a tile that is not what was surveyed, after it has been read. \throws mesh_files::Unreadable_file
+  void check_source(std::size_t tile, std::size_t faces, std::size_t surveyed) const {
+    std::string failure, sources;
+    folder_.read_of_tile_into(tile, "survey", failure, sources);
+    if (faces != surveyed || sources != sources_in_words(tile))
+      throw mesh_files::Unreadable_file(tasks_[tile].mesh + ": the file has changed since the step \"survey\" read it" +
+                                        (tasks_[tile].files.constraints.empty() ? "" : ", or its walls have"));
+  }
+
+  /// The first face of a tile that is no triangle, if there is one.
+  static Index first_polygon(const RW::Tile& tile) {
+    for (Index f = 0; f < tile.number_of_faces(); ++f)
+      if (tile.corners[f].size() != 3) return f;
+    return no_face;
   }
 
   /// A tile as it is in its file, and repaired: each time in the same way.
@@ -273,6 +299,7 @@ class Tile_steps {
       if (failure.find(tasks_[tile].mesh) == std::string::npos) failure = tasks_[tile].mesh + ": " + failure;
     }
     const RW::Tile_survey survey = RW::survey_tile(arrays);
+    const Index polygon = first_polygon(arrays);
     const std::vector<std::uint64_t> sample = face_sample(arrays);
     Sides border;  // which no step asks for where vertices are the same in the same place alone
     if (tolerance() > 0) border = RW::internal::Joined_faces(arrays.corners, arrays.points.size()).open_ends;
@@ -286,17 +313,20 @@ class Tile_steps {
       of_pieces.push_back(pieces.size() == 1 ? survey : RW::survey_tile(piece.tile));
     folder_.write_of_tile(tile, "connected", pieces);
     folder_.write_of_tile(tile, "file_faces", tile_faces, left_out);
-    folder_.write_of_tile(tile, "survey", failure, sources, survey, of_pieces, sample, border);
+    folder_.write_of_tile(tile, "survey", failure, sources, polygon, survey, of_pieces, sample, border);
   }
 
   void plan() const {
+    check_triangles();
     std::vector<RW::Tile_survey> surveys(tasks_.size());
     std::vector<std::vector<RW::Tile_survey>> of_pieces(tasks_.size());
     std::vector<std::vector<std::uint64_t>> samples(tasks_.size());
     std::vector<Sides> borders(tasks_.size());
     for (std::size_t t = 0; t < tasks_.size(); ++t) {
       std::string failure, sources;
-      folder_.read_of_tile_into(t, "survey", failure, sources, surveys[t], of_pieces[t], samples[t], borders[t]);
+      Index polygon = no_face;
+      folder_.read_of_tile_into(t, "survey", failure, sources, polygon, surveys[t], of_pieces[t], samples[t],
+                                borders[t]);
     }
     const RW::Tile_plan plan = RW::plan_tiles(surveys, tolerance());
     for (std::size_t t = 0; t < tasks_.size(); ++t) check_tolerance(t, surveys[t], plan, borders[t]);
@@ -383,7 +413,7 @@ class Tile_steps {
       const Wall_map walls = all_walls(tile, soup, input.mesh);
       const RW::Tile_of<Mesh> arrays(input.mesh, CGAL::parameters::edge_is_constrained_map(walls));
       const std::vector<std::size_t> label = labels_of(tile, read_segments());
-      check_faces(tile, arrays.number_of_faces(), label.size());
+      check_source(tile, arrays.number_of_faces(), label.size());
       strip = RW::strip_of_tile(arrays, {tile, folder_.read<RW::Tile_plan>("plan")}, label);
     }
     folder_.write_of_tile(tile, "strip", strip);
@@ -420,7 +450,7 @@ class Tile_steps {
                               std::vector<std::size_t> label) const {
     Labelled_tile labelled;
     labelled.soup = read_input(tasks_[tile].mesh, options_.format);
-    check_faces(tile, labelled.soup.number_of_faces(), tile_faces.size());
+    check_source(tile, labelled.soup.number_of_faces(), tile_faces.size());
     for (const Index face : tile_faces) labelled.faces.emplace_back(face);
     labelled.result.label = std::move(label);
     return labelled;
@@ -431,7 +461,7 @@ class Tile_steps {
   Labelled_tile with_boundaries(std::size_t tile, const std::vector<std::size_t>& label, Output_files& files) const {
     Labelled_tile labelled;
     Oriented_mesh input = read_tile(tile, labelled.soup);
-    check_faces(tile, input.mesh.number_of_faces(), label.size());
+    check_source(tile, input.mesh.number_of_faces(), label.size());
     const Wall_map walls = all_walls(tile, labelled.soup, input.mesh);
     labelled.result.label.resize(label.size());
     const RW::Tile_of<Mesh> numbered(input.mesh);

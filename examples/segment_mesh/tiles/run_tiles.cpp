@@ -27,7 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder for what steps leave: the user's, which stays, or one for the time of the work.
+constexpr const char* parameters_file = "parameters.json";
+constexpr const char* seeds_file = "seeds.json";
+constexpr const char* parting_file = "parting";
+constexpr const char* seeding_file = "seeding";
+
+/// The folder for what steps leave: the user's, which stays once it is claimed, or one for the time of the work.
 class Work_folder {
  public:
   explicit Work_folder(std::string path) : path_(std::move(path)) {
@@ -37,8 +42,9 @@ class Work_folder {
       if (error) throw mesh_files::Unwritable_file("the folder for temporary files (TMPDIR): " + error.message());
       is_temporary_ = fs::create_directory(path_, error);
       if (!is_temporary_) throw mesh_files::Unwritable_file(path_ + ": cannot be made");
-    } else if (fs::create_directories(path_, error); error) {
-      throw mesh_files::Unwritable_file(path_ + ": " + error.message());
+    } else {
+      is_made_ = fs::create_directories(path_, error);
+      if (error) throw mesh_files::Unwritable_file(path_ + ": " + error.message());
     }
   }
   Work_folder(const Work_folder&) = delete;
@@ -46,24 +52,33 @@ class Work_folder {
   ~Work_folder() {
     std::error_code ignored;
     if (is_temporary_) fs::remove_all(path_, ignored);
+    if (is_made_ && !is_claimed_) fs::remove(path_, ignored);  // if it is empty
   }
 
   const std::string& path() const { return path_; }
 
   /// Refuses a folder that other tiles or options have left their files in, or where others would be taken for such files.
   /// \param files that steps leave
-  void claim(const std::string& parameters, const std::vector<std::string>& files) const {
-    constexpr const char* file = "parameters.json";
-    if (!fs::exists(path_ + "/" + file))
+  void claim(const std::string& parameters, const std::vector<std::string>& files) {
+    is_new_ = !fs::exists(path_ + "/" + parameters_file);
+    if (is_new_)
       for (const std::string& of_step : files)
         if (fs::exists(of_step))
           throw Argument_out_of_range("--tile-folder " + path_ + " holds " + of_step +
                                       ", which no step has left there: give another folder");
-    if (holds_other(file, parameters))
+    if (holds_other(parameters_file, parameters))
       throw Argument_out_of_range("--tile-folder " + path_ +
                                   " holds the work on other tiles or with other options: give another folder, or "
                                   "remove it");
-    keep(file, parameters);
+    is_claimed_ = true;
+    keep(parameters_file, parameters);
+  }
+
+  /// Leaves the folder as it was before it was claimed, once all files of steps are gone; one that was claimed before stays so.
+  void give_up() {
+    if (!is_new_) return;
+    for (const char* file : {parameters_file, parting_file, seeding_file, seeds_file}) fs::remove(path_ + "/" + file);
+    is_claimed_ = false;
   }
 
   /// Whether there is a file of that name with another content.
@@ -81,12 +96,9 @@ class Work_folder {
 
  private:
   std::string path_;
-  bool is_temporary_ = false;
+  bool is_temporary_ = false, is_made_ = false;
+  bool is_claimed_ = false, is_new_ = false;  // by this call
 };
-
-constexpr const char* seeds_file = "seeds.json";
-constexpr const char* parting_file = "parting";
-constexpr const char* seeding_file = "seeding";
 
 /// Refuses outputs that would take the places of what steps leave.
 void check_outputs(const std::vector<Task>& tiles, const std::string& report, const Tile_steps& steps,
@@ -164,6 +176,17 @@ void check_folders(const std::vector<Task>& tiles, const std::string& report, co
   if (!report.empty()) check(report);
 }
 
+/// Refuses a single step that there is none of.
+void check_step(const Tile_steps& steps, const Options& options) {
+  const Tile_step& step = steps.named(options.tile_step);
+  if (step.is_of_each_tile != options.tile.has_value())
+    throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
+                                                              : "this step is for all tiles: leave it out");
+  if (options.tile && *options.tile >= steps.number_of_tiles())
+    throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
+                                counted(steps.number_of_tiles(), "tile") + ", numbered from 0");
+}
+
 /// Lets memory that is freed be used again in this process, which ends after a step: to give it back and to get it anew takes
 /// a tenth of the time of a tile with 2.5 million faces.
 void keep_freed_memory() {
@@ -189,7 +212,7 @@ Exit_code do_step(const Tile_steps& steps, const Tile_step& step, std::size_t ti
   }
 }
 
-Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const Options& options, Json& report) {
+Exit_code do_all_steps(const Tile_steps& steps, Work_folder& folder, const Options& options, Json& report) {
   Worker_pool pool(options.workers.value_or(std::max(1U, std::thread::hardware_concurrency())));
   Progress_bar bar(!options.is_quiet);
   Json costs = Json::object();
@@ -212,10 +235,14 @@ Exit_code do_all_steps(const Tile_steps& steps, const Work_folder& folder, const
           ": the job was lost each time, as its worker was killed");
     if (code != success) return code;
     costs[step.name] = {{"jobs", jobs.size()}, {"seconds", of_step.seconds}, {"largest_job_mb", of_step.megabytes}};
-    if (step.name == std::string("survey") && steps.failures().size() == steps.number_of_tiles()) {
+    if (step.name != std::string("survey")) continue;
+    if (steps.failures().size() == steps.number_of_tiles()) {
       for (const std::string& failure : steps.failures()) say(failure);
+      for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) steps.forget(step, t);
+      folder.give_up();  // to the right paths, if these are wrong
       return unreadable_input;
     }
+    steps.check_triangles();
   }
   report = steps.read_report();
   report["steps"] = std::move(costs);
@@ -255,14 +282,18 @@ Exit_code tell(const Json& report, const Options& options) {
 }  // namespace
 
 Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& report) {
-  for (Task& tile : tiles) tile.files.report.clear();  // there is one for all tiles
+  if (tiles.empty()) throw CLI::RequiredError("a tile");  // of an empty list
+  for (Task& tile : tiles) tile.files.report.clear();     // there is one for all tiles
   if (!options.tile_step.empty() && options.tile_folder.empty())
     throw CLI::ValidationError("--tile-step",
                                "it finds what other steps have left in a folder: give --tile-folder, too");
-  const Work_folder folder(options.tile_folder);
+  Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
   check_outputs(tiles, path_of_report(options), steps, folder.path());
-  if (options.tile_step.empty()) check_folders(tiles, path_of_report(options), steps);
+  if (options.tile_step.empty())
+    check_folders(tiles, path_of_report(options), steps);
+  else
+    check_step(steps, options);
   folder.claim(steps.parameters(), steps.files());
   survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
   if (!options.tile_step.empty()) {
@@ -275,12 +306,6 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
     folder.keep(seeding_file, steps.seeding_in_words());
     folder.keep(seeds_file, steps.seeds_in_words());
     const Tile_step& step = steps.named(options.tile_step);
-    if (step.is_of_each_tile != options.tile.has_value())
-      throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
-                                                                : "this step is for all tiles: leave it out");
-    if (options.tile && *options.tile >= tiles.size())
-      throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
-                                  counted(tiles.size(), "tile") + ", numbered from 0");
     if (step.name == std::string("merge")) forget_steps_after(steps, step);
     const Exit_code code = do_step(steps, step, options.tile.value_or(0), options);
     return code == success && options.tile_step == "report" ? tell(steps.read_report(), options) : code;
