@@ -19,11 +19,11 @@ refuses() {  # MESSAGE OUTPUTS COMMAND ...
   local message=$1 outputs=$2
   shift 2
   "$@" >refusal 2>&1 && fail "$*: not refused"
-  grep --quiet --fixed-strings "$message" refusal || fail "$*: $(cat refusal)"
+  grep -qF "$message" refusal || fail "$*: $(cat refusal)"
   [ ! -e "$outputs" ] || fail "$*: left $outputs"
 }
 faces() { wc -l <"$1"; }
-labels() { cat "$@" | sort --unique | wc -l; }
+labels() { cat "$@" | sort -u | wc -l; }
 
 if ! command -v snakemake >/dev/null; then
   [ "${CI:-}" != true ] || fail "snakemake is not installed"
@@ -46,19 +46,19 @@ refuses 'none: there are no tiles' work segment_tiles none work outputs
 
 segment meshes outputs || fail "the recipe for collections failed"
 segment_tiles meshes work 'la{bels}' || fail "the recipe for tiles failed"
-grep --quiet '^"meshes/a,b.off",168,' outputs/segments.csv || fail "the table has $(cat outputs/segments.csv)"
-[ "$(faces outputs/a,b.seg)" = 168 ] && [ "$(faces 'la{bels}/a,b.seg')" = 168 ] || fail "other meshes were segmented"
+grep -q '^"meshes/a,b.off",168,' outputs/segments.csv || fail "the table has $(cat outputs/segments.csv)"
+[ "$(faces outputs/a,b.seg)" -eq 168 ] && [ "$(faces 'la{bels}/a,b.seg')" -eq 168 ] || fail "other meshes were segmented"
 
 cp "$data/sphere.off" meshes/a,b.off
-touch --date=2000-01-01 meshes/a,b.off
+touch -t 200001010000 meshes/a,b.off
 segment meshes outputs || fail "the second run of the recipe for collections failed"
 segment_tiles meshes work 'la{bels}' || fail "the second run of the recipe for tiles failed"
-[ "$(faces outputs/a,b.seg)" = 320 ] || fail "an older mesh went unnoticed"
-[ "$(faces 'la{bels}/a,b.seg')" = 320 ] || fail "an older tile went unnoticed"
+[ "$(faces outputs/a,b.seg)" -eq 320 ] || fail "an older mesh went unnoticed"
+[ "$(faces 'la{bels}/a,b.seg')" -eq 320 ] || fail "an older tile went unnoticed"
 
 segment meshes outputs '--segments 5' || fail "the recipe for collections failed with other options"
 segment_tiles meshes work 'la{bels}' '--segments 7' || fail "the recipe for tiles failed with other options"
-[ "$(labels outputs/c.seg)" = 5 ] || fail "other options for meshes went unnoticed"
-[ "$(labels 'la{bels}'/*.seg)" = 7 ] || fail "other options for tiles went unnoticed"
+[ "$(labels outputs/c.seg)" -eq 5 ] || fail "other options for meshes went unnoticed"
+[ "$(labels 'la{bels}'/*.seg)" -eq 7 ] || fail "other options for tiles went unnoticed"
 segment_tiles meshes work elsewhere '--segments 7' || fail "the recipe for tiles failed with another folder"
 diff -r 'la{bels}' elsewhere || fail "another folder for labels went unnoticed"

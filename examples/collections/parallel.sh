@@ -10,7 +10,7 @@ set -euo pipefail
 meshes=$1
 outputs=$2
 shift 2
-same=$(find "$meshes" -type f -printf '%f\n' | sed 's/[.]gz$//; s/[.][^.]*$//' | sort | uniq --repeated)
+same=$(find "$meshes" -type f | sed 's|.*/||; s/[.]gz$//; s/[.][^.]*$//' | sort | uniq -d)
 [ -z "$same" ] || { echo "several meshes have the name $same, but for how it ends or its folder" >&2; exit 1; }
 mkdir -p "$outputs"
 files=${outputs//%/%%}/%  # the name of the mesh stands for the second one

@@ -5,7 +5,8 @@
     python segment_tiles.py WORK_FOLDER OUTPUT_FOLDER TILE ... [--scheduler ADDRESS] [--workers N] [--options "..."]
 
 All workers must see the folders and find `segment_mesh`. A task whose worker is lost is done again by another one; run
-again, the program does what is left. Needs dask.distributed.
+again, the program does what is left. Files that options name, such as walls, are not watched: after a change remove the
+work folder. Needs dask.distributed.
 """
 
 from __future__ import annotations
