@@ -65,8 +65,10 @@ def version_of(tile: str) -> list[int] | None:
     return [status.st_size, status.st_mtime_ns]
 
 
-def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles: list[str], request: list[str]) -> None:
-    """Remove what later steps have left for other options or folders, and all steps for tiles that have changed."""
+def forget_old_work(
+    work: Path, outputs: Path, steps: tuple[tuple[str, bool, str], ...], tiles: list[str], options: list[str]
+) -> None:
+    """Remove what all steps have left for tiles that have changed, the last ones for other options or lost labels."""
     versions = [version_of(tile) for tile in tiles]
     versions_file = work / "versions.json"
     old_versions = json.loads(versions_file.read_text()) if versions_file.exists() else []
@@ -76,14 +78,17 @@ def forget_old_work(work: Path, steps: tuple[tuple[str, bool, str], ...], tiles:
         if version is None or old_versions[tile : tile + 1] != [version]:
             survey.unlink(missing_ok=True)
         is_old = is_old or not survey.exists()
+    request = json.dumps([*tiles, str(outputs), *options])
     request_file = work / "request.json"
-    is_other = not request_file.exists() or request_file.read_text() != json.dumps(request)
+    is_other = not request_file.exists() or request_file.read_text() != request
+    has_lost_labels = any(not (outputs / f"{Path(tile.removesuffix('.gz')).stem}.seg").exists() for tile in tiles)
     names = [step for step, _, _ in steps]
-    first = "plan" if is_old else "merge" if is_other else "report"  # which tells each time what failed
+    # The report tells each time what failed.
+    first = "plan" if is_old else "merge" if is_other or has_lost_labels else "report"
     for _, is_of_each_tile, file in steps[names.index(first) :]:
         for place in range(len(tiles)) if is_of_each_tile else [None]:
             (work / (file if place is None else f"{file}_{place}")).unlink(missing_ok=True)
-    request_file.write_text(json.dumps(request))
+    request_file.write_text(request)
     versions_file.write_text(json.dumps(versions))  # of before the steps: what changes meanwhile is done again
 
 
@@ -101,7 +106,7 @@ def segment(client: Client, work: Path, outputs: Path, tiles: list[str], options
     smooths_boundaries = "--refine" in words or words >= {"--smooth", "--boundaries"}
     of_boundaries = STEPS_OF_SMOOTH_BOUNDARIES if smooths_boundaries else ()
     steps = (*FIRST_STEPS, *of_method, MERGE, *of_boundaries, *LAST_STEPS)
-    forget_old_work(work, steps, tiles, [*tiles, str(outputs), *options])
+    forget_old_work(work, outputs, steps, tiles, options)
     for step, is_of_each_tile, file in steps:
         places: list[int | None] = list(range(len(tiles))) if is_of_each_tile else [None]
         left = [place for place in places if not (work / (file if place is None else f"{file}_{place}")).exists()]

@@ -75,6 +75,15 @@ def test_a_tile_is_segmented_anew_where_an_older_file_takes_its_place(
         assert contents(tmp_path / "labels") == contents(tmp_path)
 
 
+def test_labels_that_are_lost_are_written_again(
+    tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path
+) -> None:
+    for _ in range(2):
+        subprocess.run([*command(tmp_path, tiles), "--workers", "1"], env=environment(tool), check=True)
+        assert contents(tmp_path / "labels") == expected
+        (tmp_path / "labels/tripod.seg").unlink()
+
+
 def test_surfaces_are_those_of_the_tool(tool: Path, tiles: list[str], tmp_path: Path) -> None:
     subprocess.run([tool, *tiles, "--tiled", "--quiet", "--engineering", "--labels", f"{tmp_path}/%.seg"], check=True)
     subprocess.run([*command(tmp_path, tiles), "--options=--engineering"], env=environment(tool), check=True)
