@@ -12,6 +12,7 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -176,6 +177,17 @@ void check_folders(const std::vector<Task>& tiles, const std::string& report, co
   if (!report.empty()) check(report);
 }
 
+/// Refuses tiles none of which is there: of wrong paths, or on a disk that is not mounted, where work on them is not lost then.
+void check_tiles_are_there(const std::vector<Task>& tiles) {
+  const auto is_there = [](const Task& tile) {
+    std::error_code error;
+    return fs::exists(tile.mesh, error);
+  };
+  if (std::none_of(tiles.begin(), tiles.end(), is_there))
+    throw mesh_files::Unreadable_file(tiles[0].mesh + ": no such file" +
+                                      (tiles.size() > 1 ? ", nor any of the other tiles" : ""));
+}
+
 /// Refuses a single step that there is none of.
 void check_step(const Tile_steps& steps, const Options& options) {
   const Tile_step& step = steps.named(options.tile_step);
@@ -290,10 +302,12 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
   Work_folder folder(options.tile_folder);
   const Tile_steps steps(tiles, options, folder.path());
   check_outputs(tiles, path_of_report(options), steps, folder.path());
-  if (options.tile_step.empty())
+  if (options.tile_step.empty()) {
+    check_tiles_are_there(tiles);
     check_folders(tiles, path_of_report(options), steps);
-  else
+  } else {
     check_step(steps, options);
+  }
   folder.claim(steps.parameters(), steps.files());
   survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
   if (!options.tile_step.empty()) {
