@@ -49,12 +49,12 @@ export class AutomaticSegmentation {
     this.levels.value = {};
   }
 
-  /** Takes a hierarchy from elsewhere. */
+  /** Takes a hierarchy from elsewhere, and shows it. */
   take({ kind, ...policies }: AutomaticMethod, walls: Walls, level: Level): void {
     batch(() => {
       this.kind.value = kind;
       this.policies.value = policies;
-      this.levels.value = { ...this.levels.peek(), [nameOf({ kind, ...policies }, walls)]: level };
+      this.keep({ kind, ...policies }, walls, level);
     });
   }
 
@@ -71,7 +71,8 @@ export class AutomaticSegmentation {
     try {
       const hierarchy = await this.engine.hierarchy(method, walls, (fraction) => (this.progress.value = fraction));
       if (mesh === this.meshes) {
-        this.take(method, walls, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
+        // The user may have chosen another method meanwhile, which stays chosen.
+        this.keep(method, walls, { hierarchy, parts: hierarchy.suggested, milliseconds: hierarchy.milliseconds });
       }
     } catch (error) {
       if (!(error instanceof Cancelled)) this.report(error);
@@ -86,6 +87,10 @@ export class AutomaticSegmentation {
 
   setParts(parts: number): void {
     const level = this.level.peek();
-    if (level) this.take(this.method.peek(), this.walls.peek(), { ...level, parts });
+    if (level) this.keep(this.method.peek(), this.walls.peek(), { ...level, parts });
+  }
+
+  private keep(method: AutomaticMethod, walls: Walls, level: Level): void {
+    this.levels.value = { ...this.levels.peek(), [nameOf(method, walls)]: level };
   }
 }

@@ -100,8 +100,8 @@ export class Session {
       if (isWanted && this.segmentOfFace.value) void this.findCurves();
     });
     effect(() => {
-      this.mode.value; // labels of one mode mean nothing in the other
-      this.automatic.level.value;
+      // Labels of one mode mean nothing in the other, where what is found in the background hides and shows nothing.
+      if (this.mode.value === 'automatic') this.automatic.level.value;
       this.appearance.showAll();
     });
   }

@@ -15,7 +15,7 @@ const remarks: Record<HierarchyKind, string> = {
 const mostParts = 200;
 
 /** Segments without seeds, and the slider over their hierarchy. */
-export function automaticPanel({ automatic, mesh }: Session): void {
+export function automaticPanel({ automatic, mesh, opening }: Session): void {
   const kinds = document.querySelectorAll<HTMLInputElement>('input[name=kind]');
   for (const kind of kinds) kind.addEventListener('change', () => (automatic.kind.value = kind.value as HierarchyKind));
   effect(() => {
@@ -32,7 +32,7 @@ export function automaticPanel({ automatic, mesh }: Session): void {
     const progress = automatic.progress.value;
     const hadFocus = compute === document.activeElement;
     compute.hidden = progress !== null || automatic.level.value !== null;
-    compute.disabled = !mesh.value;
+    compute.disabled = !mesh.value || opening.value !== null; // parts of the mesh before would be thrown away
     byId('progress').hidden = progress === null;
     byId<HTMLProgressElement>('progress-bar').value = progress ?? 0;
     if (hadFocus && progress !== null) byId('cancel').focus();

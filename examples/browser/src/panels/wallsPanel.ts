@@ -37,7 +37,9 @@ export function wallsPanel(session: Session): void {
 
 async function take(session: Session, file: File): Promise<void> {
   try {
-    session.setWalls({ file: { name: file.name, text: await file.text() } });
+    const text = await file.text();
+    await session.whenOpened(); // the edges are those of the mesh that comes
+    session.setWalls({ file: { name: file.name, text } });
   } catch (error) {
     session.report(error, `${file.name} was not loaded. `);
   }

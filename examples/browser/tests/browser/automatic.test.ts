@@ -140,3 +140,48 @@ test('a computation can be cancelled, and the page goes on as before', async ({ 
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   expect(new Set(await segmentation.labelsAfter(null))).toEqual(new Set([0]));
 });
+
+test('what the user chooses while parts are sought stays chosen, and the parts are kept', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('bumps.off', bumpySphere(90));
+  await page.click('#tab-automatic');
+  await page.getByText('How parts are found').click();
+  await page.click('#compute');
+  await page.getByLabel('Merged first are').selectOption('size');
+  await page.getByText('Machine part').click();
+  await expect(page.locator('#progress')).toBeVisible(); // the choice was made in time
+  await expect(page.locator('#progress')).toBeHidden();
+  await expect(page.getByLabel('Machine part')).toBeChecked();
+  await expect(page.locator('#compute')).toBeVisible();
+  await page.getByText('Natural shape').click();
+  await expect(page.getByLabel('Merged first are')).toHaveValue('size');
+  await page.getByLabel('Merged first are').selectOption(defaultPolicies.mergeCost);
+  await expect(page.locator('#parts')).toBeVisible();
+});
+
+test('segments of seeds that are hidden while parts are sought stay hidden', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('bumps.off', bumpySphere(60));
+  const box = (await page.locator('#canvas').boundingBox())!;
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await expect(page.locator('#segments > li')).toHaveCount(1);
+  await page.evaluate(() => {
+    for (const button of ['#tab-automatic', '#compute', '#tab-seeds', '#segments [aria-label="Hide Part 1"]'])
+      document.querySelector<HTMLElement>(button)!.click();
+  });
+  await expect(page.getByRole('button', { name: 'Show Part 1' })).toBeVisible();
+  await expect.poll(() => page.evaluate(() => document.getElementById('level')!.hidden)).toBe(false); // found
+  await expect(page.getByRole('button', { name: 'Show Part 1' })).toBeVisible();
+});
+
+test('parts are sought only after another mesh has been opened', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await page.click('#tab-automatic');
+  const large = bumpySphere(120);
+  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await expect(page.locator('#compute')).toBeDisabled();
+  await page.click('#compute');
+  await expect(page.locator('#mesh-name')).toHaveText('large.off');
+  await expect(page.locator('#progress')).toBeVisible();
+  await page.click('#cancel');
+});

@@ -137,6 +137,17 @@ test('another mesh keeps the angle, but no edges of the file', async ({ segmenta
   await expect(page.locator('#wall-count')).toHaveText(`${12 * squares} edges`);
 });
 
+test('a file of walls that is chosen while a mesh is being opened is for that mesh', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await openPanel(segmentation);
+  const large = bumpySphere(120);
+  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await openWalls(segmentation, 'edge.txt', large.faces[0].slice(0, 2).join(' '));
+  await expect(page.locator('#mesh-name')).toHaveText('large.off');
+  await expect(page.locator('#wall-count')).toHaveText('1 edge');
+  await expect(page.locator('#wall-file-name')).toHaveText('edge.txt');
+});
+
 test('walls that fail leave those of the engine', async () => {
   const { points, faces } = cube(squares);
   const engine = await engineWith('cube.off', offFile(points, faces));
