@@ -4,7 +4,7 @@ import { effect } from '@preact/signals-core';
 import type { AutomaticSegmentation } from '../model/AutomaticSegmentation';
 import type { Session } from '../model/Session';
 import type { HierarchyKind, Policies } from '../worker/EngineModule';
-import { byId, onClick, onSlide } from './dom';
+import { byId, onSlide } from './dom';
 
 const remarks: Record<HierarchyKind, string> = {
   graphical: 'Cuts animals, people and things along concave creases, as people do.',
@@ -26,19 +26,21 @@ export function automaticPanel({ automatic, mesh, opening }: Session): void {
   policies(automatic);
 
   const compute = byId<HTMLButtonElement>('compute');
+  const cancel = byId<HTMLButtonElement>('cancel');
+  const parts = byId<HTMLInputElement>('parts');
   compute.addEventListener('click', () => void automatic.compute());
-  onClick('cancel', () => automatic.cancel());
+  cancel.addEventListener('click', () => automatic.cancel());
   effect(() => {
     const progress = automatic.progress.value;
-    const hadFocus = compute === document.activeElement;
+    const focused = document.activeElement; // what is hidden hands the focus on to what takes its place
     compute.hidden = progress !== null || automatic.level.value !== null;
     compute.disabled = !mesh.value || opening.value !== null; // parts of the mesh before would be thrown away
     byId('progress').hidden = progress === null;
     byId<HTMLProgressElement>('progress-bar').value = progress ?? 0;
-    if (hadFocus && progress !== null) byId('cancel').focus();
+    if (focused === compute && progress !== null) cancel.focus();
+    if (focused === cancel && progress === null) (compute.hidden ? parts : compute).focus();
   });
 
-  const parts = byId<HTMLInputElement>('parts');
   onSlide('parts', (value) => automatic.setParts(value));
   effect(() => {
     const level = automatic.level.value;

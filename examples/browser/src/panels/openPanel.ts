@@ -79,7 +79,13 @@ async function offerModels(session: Session): Promise<void> {
   const select = byId<HTMLSelectElement>('model');
   select.addEventListener('change', () => {
     if (select.value) void session.openModel(select.value);
-    select.selectedIndex = 0;
+  });
+  // Arrow keys go on from the model that they have opened; afterwards the same one can be chosen again.
+  const reset = () => (select.selectedIndex = 0);
+  select.addEventListener('blur', reset);
+  effect(() => {
+    const name = session.opening.value;
+    if (name !== null && name !== select.selectedOptions[0]?.textContent) reset();
   });
   try {
     for (const model of await session.engine.models()) {

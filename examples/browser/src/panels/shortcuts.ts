@@ -46,7 +46,9 @@ export function shortcuts(session: Session, stage: Stage, pointerTools: PointerT
       what: 'probability of the label',
       action: () => {
         const label = seeds.currentLabel.peek();
-        seeds.showProbability(seeds.probableLabel.peek() === label ? null : label);
+        const isShown = seeds.probableLabel.peek() === label;
+        const hasSeeds = [...seeds.annotation.peek().seeds.values()].includes(label);
+        if (session.mode.peek() === 'seeds' && (isShown || hasSeeds)) seeds.showProbability(isShown ? null : label);
       },
     },
     { keys: ['O'], what: 'open a mesh', action: () => byId('open').click() },

@@ -40,6 +40,41 @@ test('a mesh can be segmented with the keyboard alone', async ({ segmentation })
   expect(new Set(await segmentation.labels()).size).toBe(before + 1);
 });
 
+test('the focus goes from the search for parts to their number, or back where it is cancelled', async ({
+  segmentation,
+}) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('bumps.off', bumpySphere(90));
+  await page.click('#tab-automatic');
+  await page.locator('#compute').press('Enter');
+  await page.keyboard.press('Enter');
+  await expect(page.locator('#progress')).toBeHidden();
+  await expect(page.locator('#compute')).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(page.locator('#cancel')).toBeFocused();
+  await expect(page.locator('#parts')).toBeFocused();
+});
+
+test('arrow keys lead to every model, and the same one can be opened again', async ({ segmentation }) => {
+  const { page } = segmentation;
+  const list = page.locator('#model');
+  await expect.poll(() => list.locator('option').count()).toBeGreaterThan(3);
+  const names = (await list.locator('option').allTextContents()).slice(1);
+  await list.focus();
+  for (const name of names) {
+    await page.keyboard.press('ArrowDown');
+    await expect(page.locator('#mesh-name')).toHaveText(name);
+  }
+  const last = { label: names.at(-1)! };
+  await segmentation.openMesh('cube.off', cube(4));
+  await list.selectOption(last);
+  await expect(page.locator('#mesh-name')).toHaveText(last.label);
+  const { load = 0 } = await segmentation.engineCalls();
+  await page.locator('#canvas').focus();
+  await list.selectOption(last);
+  await expect.poll(async () => (await segmentation.engineCalls()).load).toBe(load + 1);
+});
+
 test('every control has a name', async ({ segmentation }) => {
   const { page } = segmentation;
   await segmentation.openMesh('cube.off', cube(4));

@@ -129,6 +129,24 @@ test('the heat map shows the probability of a label', async ({ segmentation }) =
   await expect.poll(() => segmentation.colorOf(front)).toEqual(plain);
 });
 
+test('the key of the heat map does nothing where its button could not', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', mesh);
+  await segmentation.seed(front);
+  await page.keyboard.press('2'); // a label without seeds
+  await page.keyboard.press('h');
+  await expect(page.locator('#legend')).toBeHidden();
+  await page.keyboard.press('1');
+  await page.click('#tab-automatic');
+  await page.keyboard.press('h');
+  await page.click('#tab-seeds');
+  await expect(page.locator('#legend')).toBeHidden();
+  await page.keyboard.press('h');
+  await expect(page.locator('#legend')).toContainText('Part 1');
+  await page.keyboard.press('h');
+  await expect(page.locator('#legend')).toBeHidden();
+});
+
 test('the sliders change what separates parts', async ({ segmentation }) => {
   const { page } = segmentation;
   await segmentation.openMesh('cube.off', mesh);
