@@ -35,8 +35,10 @@ function show(session: Session, result: EmbeddedResult): void {
     session.givenLabels.value = result.segmentOfFace;
     const method = { kind: result.mode, ...defaultPolicies, ...result.policies };
     session.automatic.kind.value = result.mode;
-    if (result.hierarchy)
-      session.automatic.take(method, session.walls.peek(), { hierarchy: result.hierarchy, parts: result.segments });
+    if (result.hierarchy) {
+      const { hierarchy, segments: parts, segmentOfFace } = result;
+      session.automatic.take(method, session.walls.peek(), { hierarchy, parts, given: { parts, segmentOfFace } });
+    }
     if (result.surfaces) {
       const { regularity, ...found } = result.surfaces;
       session.surfaces.take({ segmentOfFace: result.segmentOfFace, regularity, found });

@@ -12,6 +12,12 @@ interface Level {
   parts: number;
   /** How long it took, if it was made here. */
   milliseconds?: number;
+  /** Segments that came with the hierarchy, whose faces may have been cut along smooth boundaries since it was made. */
+  given?: { parts: number; segmentOfFace: Uint32Array };
+}
+
+function segmentsOf({ hierarchy, parts, given }: Level): Uint32Array {
+  return given?.parts === parts ? given.segmentOfFace : segmentsAtLevel(hierarchy, parts);
 }
 
 /** The same for methods and walls that give the same hierarchy. */
@@ -31,9 +37,7 @@ export class AutomaticSegmentation {
   private readonly levels = signal<Partial<Record<string, Level>>>({});
 
   readonly level = computed(() => this.levels.value[nameOf(this.method.value, this.walls.value)] ?? null);
-  readonly segmentOfFace = computed(() =>
-    this.level.value ? segmentsAtLevel(this.level.value.hierarchy, this.level.value.parts) : null,
-  );
+  readonly segmentOfFace = computed(() => (this.level.value ? segmentsOf(this.level.value) : null));
 
   private meshes = 0;
 

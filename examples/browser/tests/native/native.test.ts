@@ -17,7 +17,7 @@ import type {
 } from '../../src/worker/EngineModule';
 import { labelFormats, meshFormats } from '../../src/files/formats';
 import { answer, engineModule, engineWith, expect, pageFile, test } from '../browser/fixture';
-import { cube, offFile } from '../meshes';
+import { bumpySphere, cube, offFile } from '../meshes';
 import { segmentsAtLevel } from '../../src/model/mergeTree';
 
 // What the page's engine and the tool segment_mesh, the same headers compiled natively, make of the same files.
@@ -229,3 +229,15 @@ test('a page that the tool writes shows what the tool found', async ({ segmentat
   await expect.poll(() => segmentation.labels()).toEqual(labelsIn('labels.seg'));
   await segmentation.screenshot('written-by-the-tool');
 });
+
+for (const options of [[], ['--engineering']])
+  test(`a page shows segments as they are cut along their smooth boundaries: ${options.join()}`, async ({
+    segmentation,
+  }) => {
+    const { points, faces } = bumpySphere(24);
+    writeFileSync(join(folder, 'mesh.off'), offFile(points, faces));
+    segmentNatively('--refine', ...options, '--html', 'result.html', '--page', pageFile, '--labels', 'labels.seg');
+    await segmentation.goto(pathToFileURL(join(folder, 'result.html')).href);
+    expect(labelsIn('labels.seg').length).toBeGreaterThan(faces.length);
+    await expect.poll(() => segmentation.labels()).toEqual(labelsIn('labels.seg'));
+  });
