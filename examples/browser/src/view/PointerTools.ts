@@ -2,6 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import { MOUSE, TOUCH } from 'three';
+import type { Annotation } from '../model/labels';
 import type { Session } from '../model/Session';
 import type { Hit } from './SegmentedMesh';
 import type { Stage } from './Stage';
@@ -23,6 +24,8 @@ export class PointerTools {
   private clickAt: { x: number; y: number } | null = null;
   /** Whether a stroke is painted, and whether it has changed anything yet. */
   private stroke: 'none' | 'begins' | 'goes on' = 'none';
+  /** What the stroke has made. Once it was undone, or another mesh was opened, what follows is an edit of its own. */
+  private painted: Annotation | null = null;
 
   constructor(
     private readonly session: Session,
@@ -91,13 +94,21 @@ export class PointerTools {
 
   private strokeTo({ clientX, clientY }: PointerEvent): void {
     const faces = this.facesAt(clientX, clientY);
-    if (faces && this.edit(faces, this.stroke === 'goes on')) this.stroke = 'goes on';
+    if (!faces || !this.edit(faces, this.isLastEdit())) return;
+    this.stroke = 'goes on';
+    this.painted = this.session.seeds.annotation.peek();
+  }
+
+  /** Whether nothing else was edited since the stroke. */
+  private isLastEdit(): boolean {
+    return this.stroke === 'goes on' && this.session.seeds.annotation.peek() === this.painted;
   }
 
   /** @param takeBack whether it turned out that it was meant for the camera */
   private endStroke(takeBack: boolean): void {
-    if (takeBack && this.stroke === 'goes on') this.session.seeds.undo();
+    if (takeBack && this.isLastEdit()) this.session.seeds.undo();
     this.stroke = 'none';
+    this.painted = null;
     this.clickAt = null;
   }
 

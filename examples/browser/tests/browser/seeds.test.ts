@@ -82,6 +82,24 @@ test('a stroke paints seeds, is one edit, and can be erased', async ({ segmentat
   expect(await segmentation.seeds()).toEqual([]);
 });
 
+test('a stroke that is undone before its end takes no earlier edit with it', async ({ segmentation }) => {
+  const { page } = segmentation;
+  await segmentation.openMesh('cube.off', mesh);
+  await segmentation.seed(right);
+  await page.keyboard.press('p');
+  const [from, to] = [await segmentation.placeOf(front - 3), await segmentation.placeOf(front + 3)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await expect.poll(async () => (await segmentation.seeds()).length).toBeGreaterThan(1);
+  await page.keyboard.press('Control+Z');
+  expect(await segmentation.seeds()).toEqual([[right, 0]]);
+  await page.mouse.move(to.x, to.y, { steps: 6 });
+  await page.mouse.up();
+  expect((await segmentation.seeds()).length).toBeGreaterThan(1);
+  await page.keyboard.press('Control+Z');
+  expect(await segmentation.seeds()).toEqual([[right, 0]]);
+});
+
 test('dragging with the seed tool turns the mesh and places no seed', async ({ segmentation }) => {
   const { page } = segmentation;
   await segmentation.openMesh('cube.off', mesh);
