@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 
+import { batch } from '@preact/signals-core';
 import { readEmbeddedResult, type EmbeddedResult } from './files/embeddedResult';
 import { withNewLabel, type Annotation } from './model/labels';
 import type { Session } from './model/Session';
-import { defaultPolicies } from './worker/calls';
+import { defaultPolicies, noWalls } from './worker/calls';
+import type { Walls } from './worker/EngineModule';
 
 /**
  * Shows the result that `segment_mesh --html` has put into the page.
@@ -16,35 +18,38 @@ export async function showEmbeddedResult(session: Session): Promise<boolean> {
     const result = readEmbeddedResult(text);
     if (!result) return false;
     const walls = result.walls ? { name: `Walls of ${result.name}`, text: result.walls } : null;
-    session.parameters.value = { ...session.parameters.peek(), ...result.parameters };
+    choose(session, result); // before the mesh is there, so that what the user chooses meanwhile stays chosen
     const opened = await session.open(result.name, () => ({ fileName: 'embedded.ply', bytes: result.mesh }), walls);
-    if (opened) show(session, result);
+    if (opened) show(session, result, { ...noWalls, file: walls });
   } catch (error) {
     session.report(error, 'The result in this page is damaged. ');
   }
   return true;
 }
 
-function show(session: Session, result: EmbeddedResult): void {
-  if (result.segmentOfFace.length !== session.mesh.peek()?.faces)
-    throw new Error(`It has ${result.segmentOfFace.length} labels for ${session.mesh.peek()?.faces ?? 0} faces.`);
-  if (result.mode === 'seeds') {
-    session.seeds.reset(annotationOf(result), result.segmentOfFace);
-    session.mode.value = 'seeds';
-  } else {
-    session.givenLabels.value = result.segmentOfFace;
-    const method = { kind: result.mode, ...defaultPolicies, ...result.policies };
-    session.automatic.kind.value = result.mode;
-    if (result.hierarchy) {
-      const { hierarchy, segments: parts, segmentOfFace } = result;
-      session.automatic.take(method, session.walls.peek(), { hierarchy, parts, given: { parts, segmentOfFace } });
-    }
+/** Chooses on the page what the result was made by. */
+function choose(session: Session, result: EmbeddedResult): void {
+  session.parameters.value = { ...session.parameters.peek(), ...result.parameters };
+  session.mode.value = result.mode === 'seeds' ? 'seeds' : 'automatic';
+  if (result.mode === 'seeds') return;
+  session.automatic.kind.value = result.mode;
+  session.automatic.setPolicies({ ...result.policies });
+}
+
+function show(session: Session, result: EmbeddedResult, walls: Walls): void {
+  const { hierarchy, segments: parts, segmentOfFace } = result;
+  if (segmentOfFace.length !== session.mesh.peek()?.faces)
+    throw new Error(`It has ${segmentOfFace.length} labels for ${session.mesh.peek()?.faces ?? 0} faces.`);
+  if (result.mode === 'seeds') return session.seeds.reset(annotationOf(result), segmentOfFace);
+  const method = { kind: result.mode, ...defaultPolicies, ...result.policies };
+  batch(() => {
+    session.givenLabels.value = segmentOfFace;
+    if (hierarchy) session.automatic.keep(method, walls, { hierarchy, parts, given: { parts, segmentOfFace } });
     if (result.surfaces) {
       const { regularity, ...found } = result.surfaces;
-      session.surfaces.take({ segmentOfFace: result.segmentOfFace, regularity, found });
+      session.surfaces.take({ segmentOfFace, regularity, found });
     }
-    session.mode.value = 'automatic';
-  }
+  });
 }
 
 /** The seeds, and labels for them. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
+import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { defaultPolicies } from '../worker/calls';
 import { Cancelled, type EngineClient } from '../worker/EngineClient';
 import type { AutomaticMethod, Hierarchy, HierarchyKind, Policies, Walls } from '../worker/EngineModule';
@@ -53,13 +53,9 @@ export class AutomaticSegmentation {
     this.levels.value = {};
   }
 
-  /** Takes a hierarchy from elsewhere, and shows it. */
-  take({ kind, ...policies }: AutomaticMethod, walls: Walls, level: Level): void {
-    batch(() => {
-      this.kind.value = kind;
-      this.policies.value = policies;
-      this.keep({ kind, ...policies }, walls, level);
-    });
+  /** Takes a hierarchy, which is shown while its method and walls are chosen. */
+  keep(method: AutomaticMethod, walls: Walls, level: Level): void {
+    this.levels.value = { ...this.levels.peek(), [nameOf(method, walls)]: level };
   }
 
   setPolicies(policies: Partial<Policies>): void {
@@ -92,9 +88,5 @@ export class AutomaticSegmentation {
   setParts(parts: number): void {
     const level = this.level.peek();
     if (level) this.keep(this.method.peek(), this.walls.peek(), { ...level, parts });
-  }
-
-  private keep(method: AutomaticMethod, walls: Walls, level: Level): void {
-    this.levels.value = { ...this.levels.peek(), [nameOf(method, walls)]: level };
   }
 }

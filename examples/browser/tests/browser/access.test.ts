@@ -222,6 +222,32 @@ test('a result that was put into the page is shown when it is opened from disk',
   expect((await segmentation.engineCalls()).hierarchy).toBeUndefined();
 });
 
+test('what the user chooses while a result in the page is being opened stays chosen', async ({
+  segmentation,
+}, testInfo) => {
+  const { page } = segmentation;
+  const mesh = bumpySphere(120);
+  const result = {
+    name: 'result.off',
+    mesh: Buffer.from(asciiPly(mesh)).toString('base64'),
+    labels: base64(new Uint32Array(mesh.faces.length)),
+    hierarchy: null,
+    segments: 1,
+    mode: 'engineering',
+    policies: null,
+    seeds: [],
+  };
+  await page.goto(pageWith(result, testInfo.outputPath('result.html')));
+  await expect(page.getByLabel('Machine part')).toBeChecked();
+  await page.getByText('Natural shape').click();
+  await page.click('#tab-seeds');
+  await expect(page.locator('#opening')).toBeVisible(); // the choice was made in time
+  await expect(page.locator('#mesh-name')).toHaveText('result.off');
+  await expect(page.locator('#tab-seeds')).toHaveAttribute('aria-selected', 'true');
+  await page.click('#tab-automatic');
+  await expect(page.getByLabel('Natural shape')).toBeChecked();
+});
+
 test('seeds that were put into the page go on growing by the numbers that they grew by', async ({
   segmentation,
 }, testInfo) => {
