@@ -351,7 +351,10 @@ TEST(Mesh_dialects, WhatIsNoMeshIsCalledByItsName) {
     expect_refusal(name, "<HTML><body>404", "this is a page of the web");
     expect_refusal(name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "Git LFS");
     expect_refusal(name, "PK\3\4" + std::string(50, '\1'), "ZIP archive");
+    expect_refusal(name, "PK\3\4 models3D/part.off", "ZIP archive");
+    expect_refusal(name, "PK\3\4 3D/3dmodel.model", "this is a 3MF file");
   }
+  expect_refusal("cut.3mf", "PK\3\4 [Content_Types].xml", "this is a 3MF file");
   expect_refusal("text.stl",
                  "This is a text of more than eighty-four bytes, whose letters are no number of facets at all.\n",
                  ":1: an STL text starts with \"solid\", this one with 'This'");

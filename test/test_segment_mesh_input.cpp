@@ -51,6 +51,34 @@ class Segment_mesh_shell : public Segment_mesh_tool {
 
 const std::string six_labels = "0\n0\n0\n0\n0\n0\n";
 
+TEST_F(Segment_mesh_tool, A3mfFileThatIsBrokenIsRefusedWithItsFault) {
+  write("mesh.off", cube_of_separate_squares(2));
+  ASSERT_EQ(run({"mesh.off", "--segments", "2", "--output", "whole.3mf"}).exit_code, 0);
+  const Result whole = run({"whole.3mf", "--report", "report.json"});
+  if (whole.errors.find("built with Assimp") != std::string::npos) GTEST_SKIP() << "3MF files are not read";
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+
+  const std::string content = content_of(path("whole.3mf"));
+  write("cut.3mf", content.substr(0, content.size() / 2));
+  std::string damaged = content;
+  damaged.replace(damaged.find("<vertex "), 8, "<vortex ");
+  write("damaged.3mf", damaged);
+  const std::string name = "3D/3dmodel.model";
+  std::string unnamed = content;
+  for (std::size_t at = 0; (at = unnamed.find(name, at)) != std::string::npos; ++at)
+    if (unnamed[at - 1] != '/') unnamed[at + name.size() - 1] = '_';  // not where another part points to it
+  write("unnamed.3mf", unnamed);
+  write("text.3mf", "a letter");
+  write("empty.3mf", "");
+  write("folder.zip", "PK\3\4 3D/part.off");
+  expect_failure(2, "cut.3mf: the 3MF file is cut off", {"cut.3mf"});
+  expect_failure(2, "damaged.3mf: the 3MF file is damaged: its part 3D/3dmodel.model", {"damaged.3mf"});
+  expect_failure(2, "unnamed.3mf: the 3MF file holds no model", {"unnamed.3mf"});
+  expect_failure(2, "text.3mf: this is no 3MF file", {"text.3mf"});
+  expect_failure(2, "empty.3mf: the file is empty", {"empty.3mf"});
+  expect_failure(2, "folder.zip: this is a ZIP archive; unpack it first", {"folder.zip"});
+}
+
 TEST_F(Segment_mesh_tool, AMeshWithoutFacesIsRefused) {
   write("points.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
   write("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");

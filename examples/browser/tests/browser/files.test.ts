@@ -222,6 +222,8 @@ for (const [what, name, content, message] of [
   ['no mesh', 'notes.off', 'To whom it may concern', 'notes.off was not opened.'],
   ['a cut file', 'cut.off', offFile(mesh.points, mesh.faces).slice(0, 800), 'cut.off was not opened.'],
   ['an unknown format', 'mesh.docx', 'PK', 'mesh.docx was not opened.'],
+  ['a 3MF file', 'slicer.3mf', 'PK\x03\x04 3D/3dmodel.model', 'slicer.3mf: this is a 3MF file'],
+  ['a 3MF file that is cut off', 'cut.3mf', 'PK\x03\x04', 'cut.3mf: this is a 3MF file'],
   ['an empty file', 'empty.ply', '', 'empty.ply was not opened.'],
   ['seeds of another mesh', 'other.json', '{"format": "RW_segmentation seeds", "faces": 3}', 'a mesh of 3 faces'],
 ] as const)
