@@ -71,7 +71,6 @@ class Noise_estimate {
 
  private:
   static constexpr std::size_t many_vertices = 30;
-  static constexpr double correction = 1.25;  // from a low quantile of the best of five fits
 
   /// How well a surface fits to a neighbourhood.
   struct Trial {
@@ -164,7 +163,7 @@ class Noise_estimate {
   /// The standard deviation of independent noise.
   /// \param closest what some small neighbourhoods leave unexplained at most
   double independent_deviation(double closest) {
-    constexpr double correction_of_half = 1.85;  // as `correction`
+    constexpr double correction_of_half = 1.85;  // from a low quantile of the best of five fits
     // 1.2 to 1.9 on CAD and made solids, but 2.3 and more where nearly no face has as many vertices.
     constexpr double largest_growth = 2.1;
     // 1 to 4.5 times the closest on CAD solids under .001 to .3 %, but 7 to 90 times where hardly any neighbourhood lies on one
@@ -178,6 +177,7 @@ class Noise_estimate {
 
   /// What neighbourhoods of so many vertices tell, or wider ones if they leave more unexplained.
   double deviation_from(std::size_t vertices) {
+    constexpr double correction = 1.25;  // from a low quantile of the best of five fits
     return std::max(correction * deviation_of(vertices), deviation_that_grows_no_more());
   }
 
