@@ -114,6 +114,7 @@ std::vector<Subject> solids_in_folder(const std::filesystem::path& folder, const
 struct Damage {
   double noise = 0;         // percent of the diagonal
   bool is_scanned = false;  // with all else that a scanner does
+  double step = 0;          // that coordinates are rounded to at last, percent of the diagonal
 };
 
 /// \param seed of what is by chance
@@ -126,6 +127,7 @@ Subject damaged(const Subject& subject, const Damage& damage, unsigned seed) {
     solid = solids::scanned(solid, damage.noise, seed);
   else if (damage.noise > 0)
     solid = solids::with_noise(std::move(solid), damage.noise, seed);
+  if (damage.step > 0) solid = solids::with_rounded_coordinates(std::move(solid), damage.step);
   return {subject.name, std::move(solid.points), std::move(solid.faces), std::move(solid.label), subject.surfaces};
 }
 
@@ -371,6 +373,7 @@ Result result_of(const std::string& set, const std::string& method, const Damage
   Result result("engineering");
   result.add("set", set).add("method", method).add("meshes", scores.size()).add("noise", damage.noise);
   if (damage.is_scanned) result.add("scanned", 1);
+  if (damage.step > 0) result.add("step", damage.step);
   result.add("error", mean.error).add("boundary_error", mean.boundary_error).add("overlap", mean.overlap);
   result.add("matched", mean.matched)
       .add("roughly_matched", mean.roughly_matched)
@@ -393,7 +396,7 @@ int main(int argc, char* argv[]) {
   std::string data;
   std::vector<std::string> chosen = {"engineering"}, suffixes = {"_5k", "_30k", "_t"};
   std::vector<double> noises = {0};
-  double edge_length = 0.1;
+  double step = 0, edge_length = 0.1;
   unsigned noise_seeds = 1;
   bool is_scanned = false, measures_stability = false, has_numbers = false;
   std::vector<std::string> names;
@@ -407,6 +410,8 @@ int main(int argc, char* argv[]) {
   app.add_option("--noise", noises, "displace the vertices, in percent of the diagonal, one or several")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--step", step, "round the coordinates to multiples of that many percent of the diagonal")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--noise-seeds", noise_seeds, "how often each solid is displaced or scanned, each time otherwise")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -440,7 +445,7 @@ int main(int argc, char* argv[]) {
           std::printf("\n%-44s %8s %8s %8s %8s %8s %8s %8s %9s\n", (set + ", " + name).c_str(), "Rand", "boundary",
                       "overlap", "at .9", "at .75", "segments", "true", "ms");
           std::vector<Score> scores;
-          const Damage damage = {noise, is_scanned};
+          const Damage damage = {noise, is_scanned, step};
           const bool is_by_chance = noise > 0 || is_scanned;
           for (const Subject& subject : subjects)
             for (unsigned seed = 1; seed <= (is_by_chance ? noise_seeds : 1); ++seed) {

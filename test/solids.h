@@ -101,6 +101,14 @@ inline Solid with_noise(Solid solid, double percent, unsigned seed = 1) {
   return solid;
 }
 
+/// Every coordinate rounded to a multiple of that many percent of the diagonal.
+inline Solid with_rounded_coordinates(Solid solid, double percent) {
+  const double step = percent / 100 * solid.diagonal();
+  for (Point& p : solid.points)
+    for (double& x : p) x = step * std::round(x / step);
+  return solid;
+}
+
 // ---- Scans ----
 
 using Edge_ends = std::array<std::size_t, 2>;

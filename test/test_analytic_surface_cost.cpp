@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <RW_segmentation/Analytic_surface_cost.h>
+#include <RW_segmentation/internal/surfaces/rounding_step.h>
 #include <RW_segmentation/merge_segments.h>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -167,6 +169,74 @@ TEST(SurfaceTolerance, SeesNoNoiseInWhatAKernelMeshes) {
     const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
     EXPECT_EQ(internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise, 0) << solid.name;
   }
+}
+
+TEST(SurfaceTolerance, KnowsHowFarCoordinatesWereRounded) {
+  for (const solids::Solid& clean : solids::all(solids::even(0.1)))
+    for (const double percent : {0.002, 0.01}) {
+      SCOPED_TRACE(clean.name);
+      const Surface_mesh mesh = meshes::surface_mesh(shape_of(solids::with_rounded_coordinates(clean, percent)));
+      // What is spread evenly over a step has a twelfth of its square as variance. Planes along the axes stay exact.
+      const double deviation = clean.name == "box" ? 0 : percent / 100 / std::sqrt(12);
+      const internal::Surface_tolerance tolerance = internal::surface_tolerance(Dual_mesh_of(mesh), -1);
+      EXPECT_NEAR(tolerance.noise, deviation, 0.01 * deviation);
+      EXPECT_FALSE(tolerance.is_noisy());
+    }
+}
+
+TEST(SurfaceTolerance, TakesNoFreeFormOnAGridForARoundedSurface) {
+  solids::Builder builder("waves");
+  builder.grid(builder.add({}), 40, 40, [](double u, double v) -> solids::Point {
+    return {u, v, 0.1 * (std::sin(7 * u + 2 * v) + std::cos(5 * v - 3 * u * v))};
+  });
+  const solids::Solid waves = std::move(builder).solid();
+  const auto noise_of = [](const solids::Solid& solid) {
+    const Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
+    return internal::surface_tolerance(Dual_mesh_of(mesh), -1).noise;
+  };
+  const double before = noise_of(waves);
+  for (const double percent : {0.002, 0.01})
+    EXPECT_NEAR(noise_of(solids::with_rounded_coordinates(waves, percent)), before, 0.05 * before);
+}
+
+// ---- Coordinates that were rounded ----
+
+namespace {
+
+/// In a box whose diagonal is 1, away from the origin.
+std::vector<Eigen::Vector3d> points_by_chance(std::size_t number) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(7, 7 + 1 / std::sqrt(3));
+  std::vector<Eigen::Vector3d> points(number);
+  for (Eigen::Vector3d& p : points)
+    for (double& x : p) x = coordinate(random);
+  return points;
+}
+
+}  // namespace
+
+TEST(RoundingStep, IsTheLongestThatCoordinatesAreMultiplesOf) {
+  for (const double step : {2e-5, 1e-4, 3e-3})
+    for (const bool is_single : {false, true}) {  // as many formats store it
+      std::vector<Eigen::Vector3d> points = points_by_chance(5000);
+      for (Eigen::Vector3d& p : points)
+        for (double& x : p) {
+          const double from_origin = step * std::round((x - 7) / step);
+          x = 7 + (is_single ? static_cast<double>(static_cast<float>(from_origin)) : from_origin);
+        }
+      EXPECT_NEAR(internal::rounding_step(points, 1e-5), step, 0.01 * step) << is_single;
+      EXPECT_EQ(internal::rounding_step(points, 2 * step), 0);
+    }
+}
+
+TEST(RoundingStep, IsNoneWhereCoordinatesAreAny) {
+  EXPECT_EQ(internal::rounding_step(points_by_chance(5000), 1e-5), 0);
+  EXPECT_EQ(internal::rounding_step(points_by_chance(50), 1e-5), 0);
+}
+
+TEST(RoundingStep, IsNoneWithoutDifferences) {
+  EXPECT_EQ(internal::rounding_step({}, 1e-5), 0);
+  EXPECT_EQ(internal::rounding_step({{1, 2, 3}, {1, 2, 3}}, 1e-5), 0);
 }
 
 }  // namespace test_analytic_surface_cost

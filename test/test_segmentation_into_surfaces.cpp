@@ -313,6 +313,15 @@ TEST(SegmentationIntoSurfaces, FindsTheSameFacesUnderNoiseThatHardlyTurnsThem) {
   EXPECT_GE(found, 26u);
 }
 
+TEST(SegmentationIntoSurfaces, FindsTheSameFacesWhereCoordinatesAreRounded) {
+  constexpr double percent = 0.01;  // four decimals of a solid whose diagonal is 1
+  for (const solids::Solid& clean : solids::all(solids::by_kernel())) {
+    SCOPED_TRACE(clean.name);
+    const solids::Solid solid = solids::with_rounded_coordinates(clean, percent);
+    for (const double overlap : best_overlaps(solid, segments_of(solid))) EXPECT_GE(overlap, 0.85);
+  }
+}
+
 TEST(SegmentationIntoSurfaces, TakesNoFreeFormForSlightNoise) {
   solids::Builder builder("waves");
   builder.grid(builder.add({}), 40, 40, [&](double u, double v) -> solids::Point {

@@ -187,6 +187,13 @@ TEST(TiledSurfaces, EstimateTheNoiseOfTheWhole) {
   }
 }
 
+TEST(TiledSurfaces, KnowHowFarCoordinatesWereRounded) {
+  constexpr double percent = 0.01;
+  const solids::Solid solid = solids::with_rounded_coordinates(solids::stepped_shaft(solids::even(0.15)), percent);
+  const double deviation = percent / 100 / std::sqrt(12);  // of what is spread evenly over a step
+  EXPECT_NEAR(noise_of(octants(shape_of(solid)).tiles).deviation, deviation, 0.02 * deviation);
+}
+
 TEST(TiledSurfaces, LookAtAsManyNeighbourhoodsHoweverManyTilesThereAre) {
   const Shape shape = shape_of(solids::pipe_elbow(solids::even(0.1)));
   for (const std::size_t tiles : {1U, 8U, 200U}) {

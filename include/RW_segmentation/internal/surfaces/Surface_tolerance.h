@@ -45,6 +45,9 @@ struct Surface_tolerance {
   static constexpr double slight_distances = 3.6;
   /// Slight noise of at most so much is within what counts as exact.
   static constexpr double least_slight_noise = cad_exactness / slight_distances;
+  /// Overlaps looked for as under noise and as without it: .86 and .99 on made solids under .03 %, .989 and .972 under .06 %;
+  /// .918 and .929, .923 and .917 on CAD solids (`_5k`).
+  static constexpr double largest_slight_noise = 4e-4;
 
   double noise = 0;                             ///< standard deviation of the vertices, 0 if they count as exact
   Noise_kind noise_kind = Noise_kind::unclear;  ///< where there is noise
@@ -142,13 +145,10 @@ struct Surface_tolerance {
 
   /// Whether noise is small beside details of the shape, and turns half of the faces by little.
   static bool is_slight(double deviation, std::vector<double> tilts) {
-    // Of the diagonal. Looked for as under noise and as without it, overlaps of made solids are .86 and .99 under .03 %, .989
-    // and .972 under .06 %; on CAD solids (`_5k`) .918 and .929, .923 and .917.
-    constexpr double largest_noise = 4e-4;
     // Likewise, by the turn of half of the faces: .90 and .99 up to .015, .95 and .97 from there to .03, .97 and .97 to .045,
     // .95 and .93 to .07, less beyond (made solids, `_5k`, `_30k` and `_t`, noise of .01 to .06 %).
     constexpr double slight_turn = 0.03;  // radians
-    if (deviation > largest_noise || tilts.empty()) return false;
+    if (deviation > largest_slight_noise || tilts.empty()) return false;
     const auto middle = tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2);
     std::nth_element(tilts.begin(), middle, tilts.end());
     return *middle <= slight_turn;
