@@ -459,4 +459,4 @@ def add_seeds(walk: _core.Walk, seeds: list[tuple[int, int | None]]) -> None:
         chosen = place if label is None else label
         if known.setdefault(face, chosen) != chosen:
             raise ValueError(f"seed {face}: another seed gives the same face the label {known[face]}")
-        walk.add_seed(integer_of(face, "seed"), integer_of(chosen, "the label"))
+        walk.add_seeds([integer_of(face, "seed")], integer_of(chosen, "the label"))

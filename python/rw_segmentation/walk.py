@@ -90,12 +90,18 @@ class RandomWalk:
         ValueError
             If it is not a face of the mesh, or the label is negative.
         """
-        self._core.add_seed(integer_of(face, "seed"), integer_of(label, "the label"))
+        self._core.add_seeds([integer_of(face, "seed")], integer_of(label, "the label"))
 
     def add_seeds(self, faces: ArrayLike, label: int) -> None:
-        """Make several faces seeds of one label, such as those under a stroke of a brush."""
-        for face in integers_of(faces, "faces").reshape(-1):
-            self._core.add_seed(integer_of(face, "seed"), integer_of(label, "the label"))
+        """Make several faces seeds of one label, such as those under a stroke of a brush.
+
+        Raises
+        ------
+        ValueError
+            If one of them is not a face of the mesh, or the label is negative; no face has become a seed then.
+        """
+        seeds = [integer_of(face, "seed") for face in integers_of(faces, "faces").ravel()]
+        self._core.add_seeds(seeds, integer_of(label, "the label"))
 
     def remove_seed(self, face: int) -> bool:
         """Make a face an ordinary one again; tells whether it was a seed."""

@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace rw_python {
 namespace {
@@ -44,10 +45,13 @@ class Walk {
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
 
-  void add_seed(std::int64_t face, std::int64_t label) {
+  /// All of them or none.
+  void add_seeds(const std::vector<std::int64_t>& faces, std::int64_t label) {
     if (label < 0) throw std::invalid_argument("the label is " + std::to_string(label) + ", but must not be negative");
+    std::vector<Face> seeds;
+    for (const std::int64_t face : faces) seeds.push_back(mesh_.face(face, "seed"));
     const Access access(*this);
-    walk_->add_seed(mesh_.face(face, "seed"), static_cast<std::size_t>(label));
+    for (const Face seed : seeds) walk_->add_seed(seed, static_cast<std::size_t>(label));
   }
   bool remove_seed(std::int64_t face) {
     const Access access(*this);
@@ -191,7 +195,7 @@ void define_walk(nb::module_& m) {
                     const std::optional<Pairs>&, const nb::object&>(),
            nb::arg("mesh"), nb::arg("choices"), nb::arg("difference").none(), nb::arg("conductance").none(),
            nb::arg("walls").none(), nb::arg("progress").none())
-      .def("add_seed", &Walk::add_seed, nb::arg("face"), nb::arg("label"))
+      .def("add_seeds", &Walk::add_seeds, nb::arg("faces"), nb::arg("label"))
       .def("remove_seed", &Walk::remove_seed, nb::arg("face"))
       .def("clear_seeds", &Walk::clear_seeds)
       .def("anticipate", &Walk::anticipate, nb::arg("progress").none())

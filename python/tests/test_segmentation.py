@@ -144,6 +144,15 @@ def test_edited_seeds_give_what_a_new_walk_gives(elephant: Mesh) -> None:
         walk.labels()
 
 
+def test_seeds_of_which_one_is_wrong_change_nothing() -> None:
+    walk = rw.RandomWalk(*sphere(1))
+    walk.add_seeds([0, 1], 5)
+    for faces, label in (([2, 10**6], 5), ([2, -1], 5), ([1, 2], -1)):
+        with pytest.raises(ValueError, match=r"seed|label"):
+            walk.add_seeds(faces, label)
+        assert walk.seeds == {0: 5, 1: 5}
+
+
 def test_components_without_a_seed_get_labels_of_their_own() -> None:
     mesh = together(sphere(1), sphere(1, 1, (4, 0, 0)), sphere(1, 1, (8, 0, 0)))
     walk = rw.RandomWalk(*mesh)
