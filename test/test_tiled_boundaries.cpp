@@ -172,7 +172,7 @@ Labels parts_at_random(const Shape& shape, std::size_t number, unsigned seed) {
 }
 
 TEST(TiledBoundaries, OfRefinedTilesMeetVertexByVertex) {
-  const Shape shape = meshes::sphere(4);
+  const Shape shape = meshes::sphere(3);
   std::size_t crossings = 0, moved = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const std::size_t number = 2 + seed % 5;  // of tiles
