@@ -611,8 +611,8 @@ solids::Solid assembly_of(const std::vector<solids::Solid>& parts) {
   double place = 0;
   for (const solids::Solid& part : parts) {
     const std::size_t points = assembly.points.size(), surfaces = assembly.surfaces.size();
-    for (const solids::Point& p : part.points)
-      assembly.points.push_back(p / part.diagonal() + Eigen::Vector3d(place, 0, 1));
+    const double diagonal = part.diagonal();
+    for (const solids::Point& p : part.points) assembly.points.push_back(p / diagonal + Eigen::Vector3d(place, 0, 1));
     for (auto face : part.faces) {
       for (std::size_t& v : face) v += points;
       assembly.faces.push_back(face);
