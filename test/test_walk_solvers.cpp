@@ -10,7 +10,7 @@
 
 #include <Eigen/SparseLU>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -42,7 +42,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 
 // 500 decimal digits. Long double would not do: weak links between clusters cost it all of its own.
-using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<500>>;
+using Exact = boost::multiprecision::mpfr_float_500;
 
 template <class Solver>
 class Walk_solver : public testing::Test {};
