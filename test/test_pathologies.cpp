@@ -13,7 +13,7 @@
 
 #include <CGAL/Polyhedron_items_with_id_3.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/range/adaptor/filtered.hpp>
 #include <boost/range/adaptor/transformed.hpp>
@@ -113,7 +113,7 @@ networks::Network network_of(const Mesh& mesh, const ConductanceMap& conductance
 template <class Solver, class Mesh, class ConductanceMap>
 double largest_relative_error(const Mesh& mesh, const ConductanceMap& conductance, Solver solver,
                               const std::vector<networks::Index>& seeds) {
-  using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<500>>;
+  using Exact = boost::multiprecision::mpfr_float_500;
   const auto exact = networks::dense_potentials<Exact>(network_of(mesh, conductance), seeds);
   const auto face = faces_of(mesh);
   Random_walk walk(mesh, conductance, std::move(solver));
