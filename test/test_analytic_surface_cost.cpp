@@ -234,6 +234,13 @@ TEST(RoundingStep, IsNoneWhereCoordinatesAreAny) {
   EXPECT_EQ(internal::rounding_step(points_by_chance(50), 1e-5), 0);
 }
 
+TEST(RoundingStep, IsNoneWhereDifferencesGrowByLittle) {
+  std::vector<Eigen::Vector3d> points;
+  double x = 0;
+  for (double difference = 1e-4; x < 0.5; difference *= 1.03) points.emplace_back(x += difference, 0, 0);
+  EXPECT_EQ(internal::rounding_step(points, 1e-5), 0);
+}
+
 TEST(RoundingStep, IsNoneWithoutDifferences) {
   EXPECT_EQ(internal::rounding_step({}, 1e-5), 0);
   EXPECT_EQ(internal::rounding_step({{1, 2, 3}, {1, 2, 3}}, 1e-5), 0);

@@ -42,19 +42,22 @@ inline double rounding_step(const std::vector<Eigen::Vector3d>& points, double l
   const std::vector<double> differences = coordinate_differences(points, error);
   if (differences.empty()) return 0;
   double step = differences.front();
+  const auto is_multiple = [&](double difference) {
+    return std::abs(difference - std::round(difference / step) * step) <= std::max(rest * step, error);
+  };
   for (std::size_t i = 0; i < differences.size();) {
     if (step < least) return 0;
     const double multiple = std::round(differences[i] / step);
-    const double left = std::abs(differences[i] - multiple * step);
-    if (left <= std::max(rest * step, error)) {
+    if (is_multiple(differences[i])) {
       step = differences[i] / multiple;  // the longer a difference, the less its error matters
       ++i;
     } else {
-      step = left;
+      step = std::abs(differences[i] - multiple * step);
       i = 0;
     }
   }
-  return step;
+  // A step may have grown along with differences each of which is hardly longer than the one before.
+  return std::all_of(differences.begin(), differences.end(), is_multiple) ? step : 0;
 }
 
 }  // namespace RW_segmentation::internal
