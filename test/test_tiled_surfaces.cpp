@@ -194,6 +194,20 @@ TEST(TiledSurfaces, KnowHowFarCoordinatesWereRounded) {
   EXPECT_NEAR(noise_of(octants(shape_of(solid)).tiles).deviation, deviation, 0.02 * deviation);
 }
 
+TEST(TiledSurfaces, KnowHowFarCoordinatesOfSeveralPartsWereRounded) {
+  constexpr double percent = 0.01;
+  const Shape large = shape_of(solids::stepped_shaft(solids::even(0.15)));
+  Shape small = large;
+  for (Eigen::Vector3d& p : small.points) p = 0.37 * p + Eigen::Vector3d(6, 1, 2);
+  const Shape both = meshes::together(large, small);
+  solids::Solid solid;
+  solid.points = both.points;
+  solid.faces = both.faces;
+  const Shape rounded = shape_of(solids::with_rounded_coordinates(solid, percent));
+  const double deviation = percent / 100 / std::sqrt(12);
+  EXPECT_NEAR(hierarchy_of_tiled_surfaces(octants(rounded).tiles).noise.deviation, deviation, 0.02 * deviation);
+}
+
 TEST(TiledSurfaces, LookAtAsManyNeighbourhoodsHoweverManyTilesThereAre) {
   const Shape shape = shape_of(solids::pipe_elbow(solids::even(0.1)));
   for (const std::size_t tiles : {1U, 8U, 200U}) {

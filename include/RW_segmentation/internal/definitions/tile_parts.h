@@ -138,7 +138,7 @@ inline std::vector<Dual_mesh::Index> lowest_connected(const Tile_plan& plan, con
 
 /// Takes a box that is too small for the exactness of coordinates to a least one.
 inline void widen_box(Tile_plan& plan, const Unit_box& whole) {
-  constexpr double least_unit = 1e-2;  // that of `Parts_in_boxes`
+  constexpr double least_unit = 1e-2;  // that of single precision in `Parts_in_boxes`
   const double factor = std::max(least_unit * whole.unit / plan.box.unit, 1.);
   plan.box.unit *= factor;
   plan.box.rounding = std::max(plan.box.rounding, whole.rounding * whole.unit / plan.box.unit);

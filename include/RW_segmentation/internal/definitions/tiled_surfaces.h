@@ -12,6 +12,7 @@
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
 #include <RW_segmentation/internal/surfaces/noise_trials.h>
 #include <RW_segmentation/internal/surfaces/out_of_box.h>
+#include <RW_segmentation/internal/surfaces/rounding_step.h>
 #include <RW_segmentation/internal/tiles/Joined_nodes.h>
 #include <RW_segmentation/internal/tiles/steps_in_memory.h>
 #include <RW_segmentation/segment_surfaces.h>
@@ -144,18 +145,22 @@ RW_SEGMENTATION_INLINE Surface_noise noise_of_parts(const Tile_parts& parts,
   for (const auto& of_tile : pieces) all.insert(all.end(), of_tile.begin(), of_tile.end());
   for (const Tile_parts::Part& part : parts.parts)
     plan.box.rounding = std::max(plan.box.rounding, part.plan.box.rounding);
-  if (!(options.noise >= 0)) {
-    const Surface_noise by_part = noise_of_tiles(plan, all, options);
-    if (by_part.deviation == 0 || parts.parts.size() == 1) return by_part;
-  }
+  const bool is_given = options.noise >= 0;
+  const Surface_noise by_part = is_given ? Surface_noise() : noise_of_tiles(plan, all, options);
+  if (!is_given && parts.parts.size() == 1) return by_part;
   plan.box = parts.box;
+  std::vector<Eigen::Vector3d> points;
   auto neighbourhoods = all.begin();
   for (const auto& of_tile : parts.places)
     for (const auto& place : of_tile) {
       const internal::Unit_box& box = parts.parts[place.part].plan.box;
-      for (Eigen::Vector3d& p : (neighbourhoods++)->faces.points)
-        p = (p * box.unit + (box.origin - parts.box.origin)) / parts.box.unit;
+      std::vector<Eigen::Vector3d>& of_piece = (neighbourhoods++)->faces.points;
+      for (Eigen::Vector3d& p : of_piece) p = (p * box.unit + (box.origin - parts.box.origin)) / parts.box.unit;
+      points.insert(points.end(), of_piece.begin(), of_piece.end());
     }
+  // That coordinates were rounded does not show in parts whose units differ.
+  const bool is_rounded = internal::deviation_of_rounding(points) > internal::Surface_tolerance::least_slight_noise;
+  if (!is_given && by_part.deviation == 0 && !is_rounded) return by_part;
   return noise_of_tiles(plan, all, options);
 }
 

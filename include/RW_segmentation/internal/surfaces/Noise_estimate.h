@@ -34,7 +34,7 @@ class Noise_estimate {
   /// \param trials the faces that neighbourhoods are about
   Noise_estimate(const Dual_mesh& mesh, std::vector<Index> trials) : mesh_(mesh), trial_faces_(std::move(trials)) {
     expect(Surface_tolerance(mesh, 0));
-    rounding_ = deviation_of_rounding();
+    rounding_ = rounding_that_matters();
   }
 
   /// From now on, neighbourhoods end at edges that this does not explain. Those that stay what they were are not fitted again.
@@ -88,14 +88,13 @@ class Noise_estimate {
     std::optional<Trial> trial;
   };
 
-  /// The standard deviation of coordinates that were rounded to some step; 0 if they were not, or count as exact even so. It
-  /// leaves planes along the axes exact, and rounds vertices above each other alike, so that neither what neighbourhoods leave
+  /// The standard deviation of coordinates that were rounded; 0 if they were not, or count as exact even so. Rounding leaves
+  /// planes along the axes exact, and rounds vertices above each other alike, so that neither what neighbourhoods leave
   /// unexplained nor its correlation tell it as they tell noise.
-  double deviation_of_rounding() {
-    constexpr double variances_of_step = 12;  // a uniform distribution has a twelfth of the square of its width
-    const double root = std::sqrt(variances_of_step);
-    const double deviation = rounding_step(mesh_.points(), root * Surface_tolerance::least_slight_noise) / root;
-    if (deviation == 0 || deviation > Surface_tolerance::largest_slight_noise) return 0;
+  double rounding_that_matters() {
+    const double deviation = deviation_of_rounding(mesh_.points());
+    if (deviation <= Surface_tolerance::least_slight_noise || deviation > Surface_tolerance::largest_slight_noise)
+      return 0;
     const bool is_rounding = leave_as_much_unexplained(trials_of(many_vertices / 2), deviation) ||
                              leave_as_much_unexplained(trials_of(many_vertices), deviation);
     return is_rounding ? deviation : 0;

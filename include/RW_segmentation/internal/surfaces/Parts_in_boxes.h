@@ -8,6 +8,7 @@
 #include <RW_segmentation/internal/mesh/Face_geometry.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/out_of_box.h>
+#include <RW_segmentation/internal/surfaces/rounding_step.h>
 
 #include <Eigen/Geometry>
 
@@ -78,19 +79,22 @@ class Parts_in_boxes {
     return part;
   }
 
-  /// By the lowest vertex. The box of a large part is that of the whole.
+  /// By the lowest vertex. The box of a large part is that of the whole, and none is so small that coordinates which were
+  /// rounded would not count as exact in it.
   static std::vector<Unit_box> boxes_of_parts(const Dual_mesh& mesh, const std::vector<Index>& part) {
-    constexpr double large = 0.5;        // the diagonal
-    constexpr double least_unit = 1e-2;  // coordinates in single precision are exact to 1e-7 of the whole
+    constexpr double large = 0.5;                   // the diagonal
+    constexpr double single_precision_unit = 1e-2;  // coordinates are exact to 1e-7 of the whole
+    const double least_unit =
+        std::max(single_precision_unit, deviation_of_rounding(mesh.points()) / Surface_tolerance::least_slight_noise);
     std::vector<Eigen::AlignedBox3d> around(part.size());
     for (Index f = 0; f < mesh.number_of_faces(); ++f)
       for (const Index v : mesh.corners(f)) around[part[v]].extend(mesh.point(v));
     std::vector<Unit_box> boxes(part.size());
     for (std::size_t v = 0; v < part.size(); ++v) {
       if (around[v].isEmpty()) continue;
-      const double diagonal = around[v].diagonal().norm();
-      if (diagonal >= large) continue;
-      boxes[v].unit = std::max(diagonal, least_unit);
+      const double unit = std::max(around[v].diagonal().norm(), least_unit);
+      if (unit >= large) continue;
+      boxes[v].unit = unit;
       boxes[v].origin = around[v].center();
     }
     return boxes;
