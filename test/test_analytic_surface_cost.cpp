@@ -241,6 +241,24 @@ TEST(RoundingStep, IsNoneWhereDifferencesGrowByLittle) {
   EXPECT_EQ(internal::rounding_step(points, 1e-5), 0);
 }
 
+TEST(RoundingStep, DividesAllDifferencesOfAnyPoints) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> exponent(-6.5, -1), number(1, 40);
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<Eigen::Vector3d> points;
+    double x = 0;
+    for (const double end = number(random); static_cast<double>(points.size()) < end;)
+      points.emplace_back(x += std::pow(10, exponent(random)), 0, 0);
+    const double step = internal::rounding_step(points, 5e-7);
+    if (step == 0) continue;
+    for (std::size_t p = 1; p < points.size(); ++p) {
+      const double multiple = (points[p] - points[p - 1]).x() / step;
+      if (multiple * step <= 2e-7) continue;  // as good as none
+      EXPECT_NEAR(multiple, std::round(multiple), std::max(0.1, 2.1e-7 / step)) << i;
+    }
+  }
+}
+
 TEST(RoundingStep, IsNoneWithoutDifferences) {
   EXPECT_EQ(internal::rounding_step({}, 1e-5), 0);
   EXPECT_EQ(internal::rounding_step({{1, 2, 3}, {1, 2, 3}}, 1e-5), 0);
