@@ -226,7 +226,7 @@ test('what the user chooses while a result in the page is being opened stays cho
   segmentation,
 }, testInfo) => {
   const { page } = segmentation;
-  const mesh = bumpySphere(120);
+  const mesh = bumpySphere(24);
   const result = {
     name: 'result.off',
     mesh: Buffer.from(asciiPly(mesh)).toString('base64'),
@@ -237,11 +237,13 @@ test('what the user chooses while a result in the page is being opened stays cho
     policies: null,
     seeds: [],
   };
+  await segmentation.holdEngine();
   await page.goto(pageWith(result, testInfo.outputPath('result.html')));
   await expect(page.getByLabel('Machine part')).toBeChecked();
   await page.getByText('Natural shape').click();
   await page.click('#tab-seeds');
-  await expect(page.locator('#opening')).toBeVisible(); // the choice was made in time
+  await expect(page.locator('#opening')).toBeVisible();
+  await segmentation.releaseEngine();
   await expect(page.locator('#mesh-name')).toHaveText('result.off');
   await expect(page.locator('#tab-seeds')).toHaveAttribute('aria-selected', 'true');
   await page.click('#tab-automatic');

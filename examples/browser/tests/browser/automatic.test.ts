@@ -143,13 +143,15 @@ test('a computation can be cancelled, and the page goes on as before', async ({ 
 
 test('what the user chooses while parts are sought stays chosen, and the parts are kept', async ({ segmentation }) => {
   const { page } = segmentation;
-  await segmentation.openMesh('bumps.off', bumpySphere(90));
+  await segmentation.openMesh('bumps.off', bumpySphere(24));
   await page.click('#tab-automatic');
   await page.getByText('How parts are found').click();
+  await segmentation.holdEngine();
   await page.click('#compute');
   await page.getByLabel('Merged first are').selectOption('size');
   await page.getByText('Machine part').click();
-  await expect(page.locator('#progress')).toBeVisible(); // the choice was made in time
+  await expect(page.locator('#progress')).toBeVisible();
+  await segmentation.releaseEngine();
   await expect(page.locator('#progress')).toBeHidden();
   await expect(page.getByLabel('Machine part')).toBeChecked();
   await expect(page.locator('#compute')).toBeVisible();
@@ -178,8 +180,10 @@ test('parts are sought only after another mesh has been opened', async ({ segmen
   const { page } = segmentation;
   await page.click('#tab-automatic');
   const large = bumpySphere(120);
+  await segmentation.holdEngine();
   await segmentation.open('large.off', offFile(large.points, large.faces));
   await expect(page.locator('#compute')).toBeDisabled();
+  await segmentation.releaseEngine();
   await page.click('#compute');
   await expect(page.locator('#mesh-name')).toHaveText('large.off');
   await expect(page.locator('#progress')).toBeVisible();

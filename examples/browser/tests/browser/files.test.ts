@@ -2,7 +2,7 @@
 
 import { gzipSync } from 'node:zlib';
 import { labelFormats, meshFormats } from '../../src/files/formats';
-import { bumpySphere, cube, offFile, triangulated } from '../meshes';
+import { cube, offFile, triangulated } from '../meshes';
 import { expect, test, type SegmentationTester } from './fixture';
 
 const n = 6;
@@ -154,11 +154,12 @@ test('the picture shows the mesh', async ({ segmentation }) => {
 
 test('a mesh that comes while another one is being opened is opened after it', async ({ segmentation }) => {
   const { page } = segmentation;
-  const large = bumpySphere(120);
-  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await segmentation.holdEngine();
+  await segmentation.open('first.off', offFile(mesh.points, mesh.faces));
   await segmentation.open('skipped.off', offFile(mesh.points, mesh.faces));
   await segmentation.open('last.off', offFile(mesh.points, mesh.faces));
   await expect(page.locator('#opening')).toHaveText('Opening last.off …');
+  await segmentation.releaseEngine();
   await expect(page.locator('#mesh-name')).toHaveText('last.off');
   await expect(page.locator('#opening')).toBeHidden();
   expect((await segmentation.engineCalls()).load).toBe(4); // with the page's own model and the cube
@@ -166,8 +167,8 @@ test('a mesh that comes while another one is being opened is opened after it', a
 
 test('segments are not saved while the engine opens another mesh', async ({ segmentation }) => {
   const { page } = segmentation;
-  const large = bumpySphere(120);
-  await segmentation.open('large.off', offFile(large.points, large.faces));
+  await segmentation.holdEngine();
+  await segmentation.open('other.off', offFile(mesh.points, mesh.faces));
   const [isPossible, isOpening] = await page.evaluate(() => [
     !document.querySelector<HTMLButtonElement>('#save-segments')!.disabled,
     !document.querySelector<HTMLElement>('#opening')!.hidden,

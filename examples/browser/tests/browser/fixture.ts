@@ -61,6 +61,16 @@ export class SegmentationTester {
     return this.page.evaluate((face) => window.segmentationPage.colorOf(face), face);
   }
 
+  /** From now on, and on pages that are gone to, the engine is asked nothing before it is released. */
+  async holdEngine(): Promise<void> {
+    await this.page.addInitScript(holdWorkers);
+    await this.page.evaluate(holdWorkers);
+  }
+
+  releaseEngine(): Promise<void> {
+    return this.page.evaluate(() => window.releaseWorkers());
+  }
+
   engineCalls(): Promise<Record<string, number>> {
     return this.page.evaluate(() => window.segmentationPage.engineCalls());
   }
@@ -115,6 +125,25 @@ export class SegmentationTester {
   async screenshot(name: string): Promise<void> {
     await this.page.screenshot({ path: `${build}screenshots/${name}.png` });
   }
+}
+
+declare global {
+  interface Window {
+    releaseWorkers: () => void;
+  }
+}
+
+/** Keeps what is posted to workers until they are released. */
+function holdWorkers(): void {
+  const { postMessage } = Worker.prototype;
+  const held: (() => void)[] = [];
+  Worker.prototype.postMessage = function (this: Worker, ...message: unknown[]) {
+    held.push(() => Reflect.apply(postMessage, this, message) as void);
+  };
+  window.releaseWorkers = () => {
+    Worker.prototype.postMessage = postMessage;
+    for (const post of held) post();
+  };
 }
 
 /** The engine as Node runs it. */

@@ -230,10 +230,12 @@ test('smooth boundaries are drawn between segments of triangles, and are offered
 test('sliders that are moved while a mesh is being opened hold for it', async ({ segmentation }) => {
   const { page } = segmentation;
   await page.getByText('What separates parts').click();
-  const large = bumpySphere(120);
-  await segmentation.open('large.off', offFile(large.points, large.faces));
+  const other = bumpySphere(24);
+  await segmentation.holdEngine();
+  await segmentation.open('other.off', offFile(other.points, other.faces));
   await page.locator('#sigma').fill('-1');
-  await expect(page.locator('#mesh-name')).toHaveText('large.off');
+  await segmentation.releaseEngine();
+  await expect(page.locator('#mesh-name')).toHaveText('other.off');
   await expect(page.locator('#sigma-value')).toHaveText('0.10');
   await expect.poll(async () => (await segmentation.engineCalls()).prepare).toBe(1);
 });
