@@ -159,8 +159,9 @@ RW_SEGMENTATION_INLINE Surface_noise noise_of_parts(const Tile_parts& parts,
       points.insert(points.end(), of_piece.begin(), of_piece.end());
     }
   // That coordinates were rounded does not show in parts whose units differ.
-  const bool is_rounded = internal::deviation_of_rounding(points) > internal::Surface_tolerance::least_slight_noise;
-  if (!is_given && by_part.deviation == 0 && !is_rounded) return by_part;
+  const bool counts_as_exact = !is_given && by_part.deviation == 0;
+  if (counts_as_exact && internal::deviation_of_rounding(points) <= internal::Surface_tolerance::least_slight_noise)
+    return by_part;
   return noise_of_tiles(plan, all, options);
 }
 
