@@ -3,7 +3,7 @@
 #ifndef MESH_FILES_H
 #define MESH_FILES_H
 
-// Meshes in files: OFF, PLY, OBJ, STL, Gmsh, Medit and VTP in; these, glTF and 3MF with segments, labels and columns of numbers
+// Meshes in files: OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit and VTP in; these and glTF with segments, labels and columns of numbers
 // out.
 //
 // Reading is strict and says where a file is wrong; it allocates no more than a few times the size of the file,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include "counted_memory.h"
+#include "three_mf_files.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -24,10 +25,30 @@ std::string repeated(const std::string& text, std::size_t times) {
   return result;
 }
 
+/// Repeated with a number in between, which counts from 1.
+std::string numbered(const std::string& before, std::size_t times, const std::string& behind) {
+  std::string result;
+  for (std::size_t i = 1; i <= times; ++i) result += before + std::to_string(i) + behind;
+  return result;
+}
+
 std::string ply(const std::string& format, std::size_t vertices, std::size_t faces, const std::string& rest) {
   return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(vertices) +
          "\nproperty char x\nproperty char y\nproperty char z\nelement face " + std::to_string(faces) +
          "\nproperty list uchar uchar vertex_indices\nend_header\n" + rest;
+}
+
+std::string three_mf(const std::string& resources, const std::string& items) {
+  return three_mf_files::archive({{"3D/3dmodel.model", three_mf_files::model(resources, items)}});
+}
+
+/// A part that promises far more than is packed in it.
+std::string billions_of_bytes_in_3mf(std::size_t n) {
+  three_mf_files::Form form;
+  form.method = 8;
+  std::string content = three_mf_files::archive({{"3D/3dmodel.model", std::string(n, ' ')}}, form);
+  content.replace(content.find("PK\1\2") + 24, 4, "\xff\xff\xff\xee");
+  return content;
 }
 
 /// The bytes that reading takes at most for each byte of the file.
@@ -102,6 +123,14 @@ TEST(Memory_of_files, IsAMultipleOfTheFileWhateverItPromises) {
        "<AppendedData encoding='raw'>_" +
            std::string("\1\0\0\0\xff\xff\xff\xff\0\0\0\0\xff\xff\1\0\x78\1", 18) + std::string(n, '\0') +
            "</AppendedData></VTKFile>"},
+      {"vertices.3mf", three_mf("<object id='1'>" + repeated("<vertex x='0' y='0' z='0'/>", n) + "</object>", "")},
+      {"triangles.3mf", three_mf("<object id='1'><vertex x='0' y='0' z='0'/>" +
+                                     repeated("<triangle v1='0' v2='0' v3='0'/>", n) + "</object>",
+                                 "<item objectid='1'/>")},
+      {"objects.3mf", three_mf(numbered("<object id='", n, "'/>"), "")},
+      {"items.3mf", three_mf("<object id='1'/>", repeated("<item objectid='1'/>", n))},
+      {"files.3mf", three_mf_files::archive(three_mf_files::Parts(n / 2))},
+      {"billions.3mf", billions_of_bytes_in_3mf(n)},
       {"billions_of_corners.off", "OFF\n1 1 0\n0 0 0\n4000000000" + repeated(" 0", n) + "\n"}};
   for (const auto& [name, content] : files) EXPECT_LT(bytes_for_each(name, content), 40) << name;
 }

@@ -259,7 +259,7 @@ TEST(Mesh_dialects, OffInAnyLayout) {
 TEST(Mesh_dialects, ObjIsKnownByItsFirstWordWhereNoNameTells) {
   expect_tetrahedron({"no_extension", "# by hand\n" + obj});
   EXPECT_EQ(mesh_files::mesh_of_content("-", "usemap x\n" + obj, mesh_files::Format::obj).points.size(), 4U);
-  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file");
+  expect_refusal("-", "usemap x\n" + obj, "this is no OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file");
 }
 
 TEST(Mesh_dialects, GmshAndMeditInAllTheirForms) {
@@ -352,9 +352,9 @@ TEST(Mesh_dialects, WhatIsNoMeshIsCalledByItsName) {
     expect_refusal(name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "Git LFS");
     expect_refusal(name, "PK\3\4" + std::string(50, '\1'), "ZIP archive");
     expect_refusal(name, "PK\3\4 models3D/part.off", "ZIP archive");
-    expect_refusal(name, "PK\3\4 3D/3dmodel.model", "this is a 3MF file");
+    expect_refusal(name, "PK\3\4 3D/3dmodel.model", "the ZIP archive is cut off");
   }
-  expect_refusal("cut.3mf", "PK\3\4 [Content_Types].xml", "this is a 3MF file");
+  expect_refusal("cut.3mf", "PK\3\4 [Content_Types].xml", "the ZIP archive is cut off");
   expect_refusal("text.stl",
                  "This is a text of more than eighty-four bytes, whose letters are no number of facets at all.\n",
                  ":1: an STL text starts with \"solid\", this one with 'This'");

@@ -237,7 +237,7 @@ std::vector<Bad_file> bad_files() {
       {"garbage.ply", garbage, ": a PLY file starts with \"ply\""},
       {"garbage.obj", garbage, ": no line of the file is an OBJ vertex"},
       {"garbage.stl", garbage, ": the header promises"},
-      {"garbage.xyz", garbage, ": this is no OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file"},
+      {"garbage.xyz", garbage, ": this is no OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file"},
       {"text.off", "to be\nor not to be\n", ":1: an OFF file starts with OFF, this one with 'to'"},
       {"text.obj", "to be\nor not to be\n", ": no line of the file is an OBJ vertex"},
       {"ply_named.off", "ply\nformat ascii 1.0\nend_header\n", ":3: the header has no element \"vertex\""},

@@ -21,17 +21,18 @@ inline std::string extension_of(const std::string& path) {
 }
 
 /// The formats that are read.
-enum class Format { off, ply, obj, stl, msh, medit, vtp };
+enum class Format { off, ply, obj, stl, msh, medit, vtp, three_mf };
 
 /// What files of a format end with, without the dot.
-inline const std::array<std::pair<const char*, Format>, 8> format_names = {{{"off", Format::off},
+inline const std::array<std::pair<const char*, Format>, 9> format_names = {{{"off", Format::off},
                                                                             {"ply", Format::ply},
                                                                             {"obj", Format::obj},
                                                                             {"stl", Format::stl},
                                                                             {"msh", Format::msh},
                                                                             {"mesh", Format::medit},
                                                                             {"meshb", Format::medit},
-                                                                            {"vtp", Format::vtp}}};
+                                                                            {"vtp", Format::vtp},
+                                                                            {"3mf", Format::three_mf}}};
 
 /// The format that a path names, before ".gz" if that is there.
 inline std::optional<Format> format_of_path(const std::string& path) {

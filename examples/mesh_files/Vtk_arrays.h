@@ -173,7 +173,7 @@ class Arrays {
     for (std::uint64_t i = 0; i < blocks; ++i) {
       const bool is_short = i + 1 == blocks && size_of_last > 0;
       const std::optional<std::string> block =
-          inflated(take(source, packed_sizes[i], array), is_short ? size_of_last : size);
+          inflated_by_zlib(take(source, packed_sizes[i], array), is_short ? size_of_last : size);
       if (!block) fail(array, "has a compressed block that is broken");
       bytes += *block;
     }

@@ -56,6 +56,9 @@ class Xml_tags {
     return std::nullopt;
   }
 
+  /// The names and values of all of them.
+  const std::vector<std::pair<std::string_view, std::string_view>>& attributes() const { return attributes_; }
+
   /// What stands between the tag before and this one.
   std::string_view text_before() const { return text_before_; }
 

@@ -154,12 +154,6 @@ inline std::string unpacked(const std::string& path, [[maybe_unused]] std::strin
 #endif
 }
 
-/// Whether a content is a ZIP archive that has a model where 3MF files have it.
-inline bool is_3mf(std::string_view content) {
-  constexpr std::size_t none = std::string_view::npos;
-  return content.substr(0, 4) == "PK\3\4" && content.find("3D/") != none && content.find(".model") != none;
-}
-
 /// Refuses what is no mesh, but often found where one is expected: each by its name.
 /// \param content behind the first blanks
 inline void refuse_other_content(const std::string& path, std::string_view content) {
@@ -172,12 +166,6 @@ inline void refuse_other_content(const std::string& path, std::string_view conte
     throw Unreadable_file(path + ": this is a page of the web (HTML), not a mesh");
   if (starts_with("version https://git-lfs.github.com/"))
     throw Unreadable_file(path + ": this is a pointer of Git LFS, not the mesh, which `git lfs pull` fetches");
-  // What is cut off may not have come to the model.
-  if (is_3mf(content) || (starts_with("pk\3\4") && extension_of(path) == ".3mf"))
-    throw Unreadable_file(path +
-                          ": this is a 3MF file, which is read only by segment_mesh where it is built with Assimp; " +
-                          "save the mesh as PLY, OBJ or STL");
-  if (starts_with("pk\3\4")) throw Unreadable_file(path + ": this is a ZIP archive; unpack it first");
   // A mark of its own, or letters with zeros in between.
   bool has_zeros = content.size() >= 8;
   for (std::size_t i = 0; has_zeros && i < 8; i += 2)

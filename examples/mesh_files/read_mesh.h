@@ -6,6 +6,7 @@
 #include "Format.h"
 #include "Polygon_soup.h"
 #include "Text.h"
+#include "read_3mf.h"
 #include "read_content.h"
 #include "read_medit.h"
 #include "read_msh.h"
@@ -30,6 +31,7 @@ inline std::optional<Format> format_of_content(std::string_view content) {
   for (const auto order : {Numbers::Order::little, Numbers::Order::big})
     if (medit::is_binary(content, order)) return Format::medit;
   if (vtp::is_vtk_file(content)) return Format::vtp;
+  if (is_3mf(content)) return Format::three_mf;
   Text text("", content.substr(0, 1 << 16));
   if (!text.next_line()) return std::nullopt;
   const std::string_view word = text.word();
@@ -64,8 +66,10 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   // A mark tells more than a name.
   const std::optional<Format> marked = format_of_content(content);
   std::optional<Format> format = given ? given : marked ? marked : format_of_path(path);
+  if (is_zip(content) && format != Format::three_mf)
+    throw Unreadable_file(path + ": this is a ZIP archive; unpack it first");
   if (!format && may_be_obj(content)) format = Format::obj;
-  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file");
+  if (!format) throw Unreadable_file(path + ": this is no OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file");
   switch (*format) {
     case Format::off:
       return read_off(path, content);
@@ -79,6 +83,8 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
       return read_medit(path, content);
     case Format::vtp:
       return read_vtp(path, content);
+    case Format::three_mf:
+      return read_3mf(path, content);
     case Format::ply:
       break;
   }
@@ -86,7 +92,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   return read_ply(path, content);
 }
 
-/// The mesh in an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file, which may be packed by gzip. The content decides which it
+/// The mesh in an OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file, which may be packed by gzip. The content decides which it
 /// is; the extension does where the content has no mark of its own, as in OBJ files. Byte order marks and blanks at the beginning are
 /// passed over.
 /// \param path for the extension and messages; nothing is read from there
@@ -103,7 +109,7 @@ inline Polygon_soup mesh_of_content(const std::string& path, std::string_view co
   return soup;
 }
 
-/// Reads an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file, or standard input for "-", see `mesh_of_content()`.
+/// Reads an OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file, or standard input for "-", see `mesh_of_content()`.
 /// \throws Unreadable_file if there is no such file, too
 inline Polygon_soup read_mesh(const std::string& path, const std::optional<Format>& format = std::nullopt) {
   return mesh_of_content(path, File_content(path).bytes(), format);

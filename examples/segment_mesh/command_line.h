@@ -20,9 +20,9 @@ namespace segment_mesh {
 
 /// The formats of meshes, as their files end.
 inline const Names<mesh_files::Format> format_names = {
-    {"off", mesh_files::Format::off}, {"ply", mesh_files::Format::ply}, {"obj", mesh_files::Format::obj},
-    {"stl", mesh_files::Format::stl}, {"msh", mesh_files::Format::msh}, {"mesh", mesh_files::Format::medit},
-    {"vtp", mesh_files::Format::vtp}};
+    {"off", mesh_files::Format::off}, {"ply", mesh_files::Format::ply},     {"obj", mesh_files::Format::obj},
+    {"stl", mesh_files::Format::stl}, {"msh", mesh_files::Format::msh},     {"mesh", mesh_files::Format::medit},
+    {"vtp", mesh_files::Format::vtp}, {"3mf", mesh_files::Format::three_mf}};
 
 /// Adds an option with a few named choices.
 template <class Choice>
@@ -86,7 +86,7 @@ inline void define_command_line(CLI::App& app, Options& options) {
 
   app.add_option(
          "mesh", options.meshes,
-         "The mesh, or several: OFF, PLY, OBJ, STL, Gmsh, Medit or VTP, also packed by gzip; glTF, 3MF, COLLADA, FBX\n"
+         "The mesh, or several: OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP, also packed by gzip; glTF, COLLADA, FBX\n"
          "and others where Assimp is compiled in; - is standard input")
       ->option_text("MESH ...");
   add_choice(app, "--format", options.format, format_names,

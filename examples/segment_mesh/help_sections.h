@@ -52,8 +52,8 @@ constexpr std::array<Help_section, 8> help_sections = {{
 #endif
      false},
     {"Input",
-     "OFF, PLY, OBJ, STL, Gmsh (.msh), Medit (.mesh, .meshb) and VTK's polygons (.vtp), packed by gzip or not; where\n"
-     "the program is built with Assimp, also glTF, GLB, 3MF, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all\n"
+     "OFF, PLY, OBJ, STL, 3MF, Gmsh (.msh), Medit (.mesh, .meshb) and VTK's polygons (.vtp), packed by gzip or not;\n"
+     "where the program is built with Assimp, also glTF, GLB, COLLADA, FBX, 3DS, AMF, Blender, LWO and X3D, with all\n"
      "meshes of their scenes. The first bytes tell which, and where they do not, the name or --format. A file without\n"
      "faces is refused. - and /dev/stdin are standard input; other pipes are read, too.\n",
      false},

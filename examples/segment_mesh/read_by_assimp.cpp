@@ -4,7 +4,6 @@
 
 #include "../mesh_files/Text.h"
 #include "../mesh_files/read_mesh.h"
-#include "check_3mf.h"
 
 #ifdef RW_SEGMENTATION_WITH_ASSIMP
 #include <assimp/postprocess.h>
@@ -34,10 +33,9 @@ std::string extension_for_assimp(const std::string& path, std::string_view conte
   if (starts_with("glTF")) return "glb";
   if (starts_with("Kaydara FBX Binary")) return "fbx";
   constexpr std::size_t beginning = 1 << 16;
-  if (mesh_files::is_3mf(content)) return "3mf";
   if (content.substr(0, beginning).find("<COLLADA") != std::string_view::npos) return "dae";
   const std::string extension = mesh_files::extension_of(path);
-  for (const char* known : {"glb", "gltf", "3mf", "dae", "fbx", "3ds", "amf", "blend", "lwo", "x3d"})
+  for (const char* known : {"glb", "gltf", "dae", "fbx", "3ds", "amf", "blend", "lwo", "x3d"})
     if (extension == std::string(".") + known && !mesh_files::format_of_content(content)) return known;
   return "";
 }
@@ -122,7 +120,6 @@ class Scene_reader {
 }  // namespace
 
 Polygon_soup read_by_assimp(const std::string& path, std::string_view content, const std::string& extension) {
-  if (extension == "3mf") refuse_broken_3mf(path, content);
   Assimp::Importer importer;
   std::error_code error;
   const bool is_file = std::filesystem::is_regular_file(path, error);

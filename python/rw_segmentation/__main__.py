@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SUCCESS, WRONG_USAGE, UNREADABLE_INPUT, WRONG_ARGUMENT, UNWRITABLE_OUTPUT, CANCELLED = 0, 1, 2, 3, 5, 130
 
 
-MESH_HELP = "OFF, PLY, OBJ, STL, Gmsh, Medit or VTP, packed by gzip or not, or what else trimesh or meshio reads"
+MESH_HELP = "OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP, packed by gzip or not, or what else trimesh or meshio reads"
 OUTPUT_HELP = "the coloured mesh: .ply, .off, .obj (with .mtl), .stl, .glb, .3mf, .msh, .mesh, .vtp"
 
 

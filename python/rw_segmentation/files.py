@@ -37,7 +37,7 @@ AnyPath = Union[str, "os.PathLike[str]"]
 
 
 def read_mesh(path: AnyPath) -> tuple[NDArray[np.float64], NDArray[np.int64] | Polygons]:
-    """Read an OFF, PLY, OBJ, STL, Gmsh, Medit or VTP file as the tool segment_mesh does.
+    """Read an OFF, PLY, OBJ, STL, 3MF, Gmsh, Medit or VTP file as the tool segment_mesh does.
 
     Faces keep their order and their corners, whatever materials, groups or degrees they have.
 

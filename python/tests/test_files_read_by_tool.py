@@ -14,7 +14,7 @@ import pytest
 
 from readers import reader
 
-gmsh, meshio, pyvista, trimesh, vtk = map(reader, ["gmsh", "meshio", "pyvista", "trimesh", "vtk"])
+gmsh, lib3mf, meshio, pyvista, trimesh, vtk = map(reader, ["gmsh", "lib3mf", "meshio", "pyvista", "trimesh", "vtk"])
 
 
 def read_by_tool(tool: Path, mesh: Path) -> tuple[Any, dict[str, Any]]:
@@ -148,6 +148,41 @@ def test_scenes_are_read_with_the_places_and_names_of_their_parts(extension: str
     if extension != "3mf":  # trimesh gives objects of 3MF files no names
         assert [part["name"] for part in report["parts"]] == ["ball", "block"]
     assert sorted(segment["faces"] for segment in report["segments"]) == [12, 320]
+
+
+def test_lib3mf_writes_what_the_tool_reads(tool: Path, tmp_path: Path) -> None:
+    """Objects of components, one of them mirrored, on the build platform twice."""
+    ball, block = trimesh.creation.icosphere(subdivisions=2), trimesh.creation.box((1, 2, 3))
+    library = lib3mf.get_wrapper()
+    model = library.CreateModel()
+    model.SetUnit(lib3mf.ModelUnit.Inch)
+
+    def object_of(mesh: Any, name: str) -> Any:
+        made = model.AddMeshObject()
+        made.SetName(name)
+        made.SetGeometry(
+            [lib3mf.Position(tuple(map(float, p))) for p in mesh.vertices],
+            [lib3mf.Triangle(tuple(map(int, t))) for t in mesh.faces],
+        )
+        return made
+
+    def moved(x: float, scale: float = 1) -> Any:
+        return lib3mf.Transform(((scale, 0, 0), (0, 1, 0), (0, 0, 1), (x, 0, 0)))
+
+    both = model.AddComponentsObject()
+    both.AddComponent(object_of(ball, 'b<a>ll & "co"'), moved(5))
+    both.AddComponent(object_of(block, "block"), moved(-5, -2))
+    model.AddBuildItem(both, moved(0))
+    model.AddBuildItem(both, moved(100))
+    model.QueryWriter("3mf").WriteToFile(str(tmp_path / "scene.3mf"))
+
+    mesh, report = read_by_tool(tool, tmp_path / "scene.3mf")
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(2 * (ball.volume + 2 * block.volume), rel=1e-5)
+    np.testing.assert_allclose(mesh.bounds, [[-6, -1, -1.5], [106, 1, 1.5]], atol=1e-6)
+    assert [part["faces"] for part in report["parts"]] == 2 * [320, 12]
+    assert [part["name"] for part in report["parts"]] == 2 * ['b<a>ll & "co"', "block"]
+    assert report["repairs"] == ["coordinates are in the unit of the file, 'inch'"]
 
 
 def test_a_broken_scene_is_refused_in_one_line(tool: Path, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@
 #include "../gmsh_and_medit_files.h"
 #include "../mesh_bytes.h"
 #include "../meshes.h"
+#include "../three_mf_files.h"
 #include "../vtp_files.h"
 
 #include <cstddef>
@@ -96,6 +97,15 @@ int main(int argc, char** argv) {
         add((name.find(".msh") != std::string::npos ? "\5" : "\6") + content);
       for (const vtp_files::Form& form : vtp_files::all_forms())
         add("\7" + vtp_files::file(mesh_bytes::tetrahedron_points, mesh_bytes::tetrahedron_faces, form));
+      const three_mf_files::Parts package = three_mf_files::package(
+          three_mf_files::model("<object id=\"1\">" + three_mf_files::tetrahedron() +
+                                    "</object><object id=\"2\" name=\"&lt;\"><components><component objectid=\"1\" "
+                                    "transform=\"-1 0 0 0 1 0 0 0 "
+                                    "1 1 2 3\"/></components></object>",
+                                "<item objectid=\"2\"/><item objectid=\"1\"/>"));
+      for (const three_mf_files::Form& form : three_mf_files::all_forms())
+        add("\4" + three_mf_files::archive(package, form));
+      add("\x0c" + package.back().second);
     } else {
       for (unsigned seed = 0; seed < 100; ++seed) add(random_bytes(seed));
     }

@@ -3,7 +3,19 @@
 import type { FileFormat } from '../worker/EngineModule';
 
 /** What meshes and seeds are opened from end with. */
-export const openedEndings = ['.off', '.ply', '.obj', '.stl', '.msh', '.mesh', '.meshb', '.vtp', '.gz', '.json'];
+export const openedEndings = [
+  '.off',
+  '.ply',
+  '.obj',
+  '.stl',
+  '.msh',
+  '.mesh',
+  '.meshb',
+  '.vtp',
+  '.3mf',
+  '.gz',
+  '.json',
+];
 
 /** A format that segments are saved in. */
 export interface SavedFormat {

@@ -2,7 +2,7 @@
 
 /** The interface of the package's headers as WebAssembly, see `engine/`. All calls are synchronous. */
 export interface EngineModule {
-  /** The first bytes tell the format, or the name: .off, .ply, .obj, .stl, .msh, .mesh, .meshb, .vtp. */
+  /** The first bytes tell the format, or the name: .off, .ply, .obj, .stl, .msh, .mesh, .meshb, .vtp, .3mf. */
   readMesh(bytes: Uint8Array, fileName: string): Engine | Failure;
   /** Names of the models that can be generated. */
   models(): string[];
