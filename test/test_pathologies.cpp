@@ -1041,6 +1041,14 @@ TEST(Pathologies, LabelsMayBeNegativeFarApartBoolOrStrings) {
   EXPECT_EQ(ids[face[20]], 0u);
   EXPECT_EQ(ids[face[3]], 1u);
 
+  const char texts[] = "top\0side\0side";  // in another order than that of the texts
+  const std::vector<std::pair<Face<Surface_mesh>, const char*>> words = {
+      {face[3], texts}, {face[20], texts + 4}, {face[40], texts + 9}};
+  EXPECT_EQ(segmentation_from_seeds(mesh, conductance, words, ids.map()), 2u);
+  EXPECT_EQ(ids[face[20]], 0u);
+  EXPECT_EQ(ids[face[40]], 0u);
+  EXPECT_EQ(ids[face[3]], 1u);
+
   // The object gives the user's own labels back.
   Written<Surface_mesh, int> labels;
   Random_walk walk(mesh, conductance);

@@ -28,6 +28,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -271,6 +272,11 @@ Random_walk(const Mesh&, const ConductanceMap&, const Third& = Third(), const Na
 
 namespace internal {
 
+/// What labels are compared as: texts by what they say, not by the place where that is.
+template <class Label>
+using Compared_label =
+    std::conditional_t<std::is_same_v<Label, const char*> || std::is_same_v<Label, char*>, std::string_view, Label>;
+
 /// What a label is called in an error: a number can be told, an enumerator cannot.
 template <class Label>
 std::string name_of_label([[maybe_unused]] const Label& label) {
@@ -314,7 +320,8 @@ std::size_t segmentation_from_seeds(const FaceListGraph& mesh, const Conductance
     if constexpr (std::is_convertible_v<decltype(seed), face_descriptor>)
       return std::pair<face_descriptor, std::size_t>(seed, place);
     else
-      return std::pair(face_descriptor(seed.first), seed.second);
+      return std::pair<face_descriptor, internal::Compared_label<std::decay_t<decltype(seed.second)>>>(seed.first,
+                                                                                                       seed.second);
   };
   using Labelled_face = decltype(labelled_face(*std::begin(seeds), 0));
   using Label = typename Labelled_face::second_type;
