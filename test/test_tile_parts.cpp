@@ -19,8 +19,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -81,9 +84,91 @@ Tile_parts parts_of(const std::vector<Tile>& tiles, bool by_component = true) {
   return parts_of_tiles(surveys, 0, by_component);
 }
 
+/// Points in a box of size 1, some of them in rows, as borders of tiles.
+std::vector<Tile_survey> scattered_borders(std::mt19937& random, std::size_t tiles, std::size_t points) {
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  std::vector<Tile_survey> surveys(tiles);
+  for (Tile_survey& survey : surveys) {
+    survey.faces = points;
+    for (std::size_t i = 0; i < points; ++i) {
+      Eigen::Vector3d p(coordinate(random), coordinate(random), coordinate(random));
+      if (i % 2 == 0) p = {std::round(8 * p[0]) / 8, 0.5, 0.5};
+      survey.border_vertices.push_back(static_cast<Index>(i));
+      survey.border_points.push_back(p);
+      survey.box.extend(p);
+    }
+  }
+  return surveys;
+}
+
+/// For each point on a border the first one that it is the same as, by comparing all.
+std::vector<std::size_t> same_points(const std::vector<Eigen::Vector3d>& points, double tolerance) {
+  std::vector<std::size_t> first(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    first[i] = i;
+    for (std::size_t j = 0; j < i; ++j) {
+      if ((points[i] - points[j]).norm() > tolerance || first[i] == first[j]) continue;
+      const auto [low, high] = std::minmax({first[i], first[j]});
+      std::replace(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(i + 1), std::size_t(high),
+                   std::size_t(low));
+    }
+  }
+  return first;
+}
+
 }  // namespace
 
 // ---- Borders ----
+
+TEST(BordersOfTiles, HaveTheSameVerticesWhateverTheTolerance) {
+  constexpr std::size_t tiles = 3, points = 60;
+  std::mt19937 random(3);
+  for (const double tolerance : {1e-3, 0.02, 0.05, 0.1, 0.125, 0.2, 0.4, 1., 2., 1e9}) {
+    const auto surveys = scattered_borders(random, tiles, points);
+    std::vector<Eigen::Vector3d> all;
+    for (const Tile_survey& survey : surveys)
+      all.insert(all.end(), survey.border_points.begin(), survey.border_points.end());
+    const std::vector<std::size_t> same = same_points(all, tolerance);
+    std::vector<std::set<Index>> neighbours(tiles);
+    std::set<std::pair<std::size_t, std::size_t>> shared;  // a point and the first one that it is the same as
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = 0; j < all.size(); ++j)
+        if (same[i] == same[j] && i / points != j / points) {
+          neighbours[i / points].insert(static_cast<Index>(j / points));
+          shared.emplace(i, same[i]);
+        }
+    const Tile_plan plan = plan_tiles(surveys, tolerance);
+    std::set<std::pair<std::size_t, std::size_t>> planned;
+    std::map<Index, std::size_t> first;
+    for (std::size_t t = 0; t < tiles; ++t) {
+      EXPECT_EQ(std::set<Index>(plan.tiles[t].neighbours.begin(), plan.tiles[t].neighbours.end()), neighbours[t]);
+      for (const auto& [vertex, id] : plan.tiles[t].shared_vertices) {
+        const std::size_t point = t * points + vertex;
+        planned.emplace(point, first.try_emplace(id, same[point]).first->second);
+      }
+    }
+    EXPECT_EQ(planned, shared) << tolerance;
+  }
+}
+
+TEST(BordersOfTiles, AreNotComparedPairByPairUnderALargeTolerance) {
+  constexpr std::size_t points = 200000;  // pair by pair the tests' time limit ends it
+  const auto rows = [](double between) {
+    std::vector<Tile_survey> surveys(2);
+    for (std::size_t i = 0; i < points; ++i) {
+      surveys[0].border_points.emplace_back(static_cast<double>(i), 0, 0);
+      surveys[1].border_points.emplace_back(static_cast<double>(i), between, 0);
+      for (Tile_survey& survey : surveys) survey.border_vertices.push_back(static_cast<Index>(i));
+    }
+    return surveys;
+  };
+  for (const double tolerance : {2., 1e4, 1e9}) {
+    const Tile_plan plan = plan_tiles(rows(tolerance / 2), tolerance);
+    EXPECT_EQ(plan.tiles[0].shared_vertices.size(), points);
+    EXPECT_EQ(plan.tiles[1].shared_vertices.front().id, plan.tiles[0].shared_vertices.back().id);
+    EXPECT_TRUE(plan_tiles(rows(1.5 * tolerance), tolerance).tiles[0].shared_vertices.empty());
+  }
+}
 
 TEST(BordersOfTiles, RefuseATolerancePastTheirEdges) {
   const Cut_mesh mesh = octants(meshes::sphere(2));  // whose edges are .27 long at least

@@ -128,22 +128,39 @@ class Border_matching {
 
   /// Those not farther from each other than a tolerance.
   void match_near(double tolerance) {
-    std::map<std::array<double, 3>, std::vector<Index>> cells;  // of that size
+    // However many vertices a large tolerance brings together, each is compared with few: a cell has few groups, as their first
+    // vertices are farther apart, and groups that the vertex belongs to already or whose boxes are too far away are passed over.
+    struct Group {  // within the tolerance of the first one
+      std::vector<Index> vertices;
+      Eigen::AlignedBox3d box;
+    };
+    std::map<std::array<double, 3>, std::vector<Group>> cells;  // of the size of the tolerance
     const auto cell_of = [&](const Eigen::Vector3d& p) {
       return std::array<double, 3>{std::floor(p[0] / tolerance), std::floor(p[1] / tolerance),
                                    std::floor(p[2] / tolerance)};
     };
     for (std::size_t v = 0; v < points_.size(); ++v) {
-      const auto cell = cell_of(points_[v]);
+      const auto vertex = static_cast<Index>(v);
+      const Eigen::Vector3d& point = points_[v];
+      const auto is_near = [&](Index other) { return (points_[other] - point).norm() <= tolerance; };
+      const auto cell = cell_of(point);
+      std::vector<Group>& groups = cells[cell];
+      auto own =
+          std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return is_near(group.vertices[0]); });
+      if (own == groups.end()) own = groups.emplace(own);
+      own->vertices.push_back(vertex);
+      own->box.extend(point);
+      unite(vertex, own->vertices[0]);
       for (const double x : {-1., 0., 1.})
         for (const double y : {-1., 0., 1.})
           for (const double z : {-1., 0., 1.}) {
             const auto found = cells.find({cell[0] + x, cell[1] + y, cell[2] + z});
             if (found == cells.end()) continue;
-            for (const Index other : found->second)
-              if ((points_[other] - points_[v]).norm() <= tolerance) unite(static_cast<Index>(v), other);
+            for (const auto& [vertices, box] : found->second)
+              if (representative(vertex) != representative(vertices[0]) && box.exteriorDistance(point) <= tolerance &&
+                  std::any_of(vertices.begin(), vertices.end(), is_near))
+                unite(vertex, vertices[0]);
           }
-      cells[cell].push_back(static_cast<Index>(v));
     }
   }
 
@@ -192,11 +209,14 @@ inline void share_vertices(const std::vector<Tile_survey>& surveys, const std::v
       return together[places[i].tile] != together[places[j].tile];
     };
     if (!are_apart(begin, end - 1)) continue;  // numbers rise with the tiles
+    std::vector<std::size_t> first_of_tiles;
     for (std::size_t i = begin; i < end; ++i) {
       tiles[places[i].tile].shared_vertices.push_back({places[i].vertex, id});
-      for (std::size_t j = begin; j < end; ++j)
-        if (are_apart(i, j)) tiles[places[i].tile].neighbours.push_back(places[j].tile);
+      if (i == begin || places[i].tile != places[i - 1].tile) first_of_tiles.push_back(i);
     }
+    for (const std::size_t i : first_of_tiles)
+      for (const std::size_t j : first_of_tiles)
+        if (are_apart(i, j)) tiles[places[i].tile].neighbours.push_back(places[j].tile);
     ++id;
   }
   for (Tile_plan::Of_tile& tile : tiles) {
