@@ -5,6 +5,8 @@
 
 // The surfaces of a machine part's segments, as the report and the page have them.
 
+#include "degree.h"
+
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/regular_surfaces.h>
 
@@ -27,7 +29,6 @@ struct Regular_option {
 /// precision hides.
 /// \param diagonal of the mesh's bounding box
 inline RW_segmentation::Regularity_tolerance regularity_tolerance(const Regular_option& option, double diagonal) {
-  constexpr double degree = 3.14159265358979323846 / 180;
   constexpr double rounding = 1e-7;  // of the diagonal, and in radians
   RW_segmentation::Regularity_tolerance tolerance;
   tolerance.length = option.length.value_or(rounding * diagonal);
@@ -40,7 +41,6 @@ inline RW_segmentation::Regularity_tolerance regularity_tolerance(const Regular_
 /// the coordinates of the mesh; angles are in degrees.
 inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
   using RW_segmentation::Surface_type;
-  constexpr double degree = 3.14159265358979323846 / 180;
   const auto vector = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
   const RW_segmentation::Surface_errors& errors = surface.errors;
   const double turn = errors.direction / degree;
@@ -82,7 +82,6 @@ inline Json surface_of(const RW_segmentation::Analytic_surface& surface) {
 /// What two surfaces have in common; differences of directions are in degrees.
 inline Json snap_of(const RW_segmentation::Surface_snap& snap) {
   using RW_segmentation::Regularity;
-  constexpr double degree = 3.14159265358979323846 / 180;
   const bool is_angle = snap.regularity == Regularity::parallel || snap.regularity == Regularity::perpendicular ||
                         snap.regularity == Regularity::equal_half_angle;
   return {{"regularity", name_of(snap.regularity)},

@@ -7,6 +7,7 @@
 #include "../mesh_files/read_content.h"
 #include "Options.h"
 #include "Oriented_mesh.h"
+#include "degree.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,6 @@
 #include <vector>
 
 namespace segment_mesh {
-
-/// A degree in radians.
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// The angle of `--constraints-angle` in radians; infinite without it.
 inline double wall_angle_of(const Options& options) {

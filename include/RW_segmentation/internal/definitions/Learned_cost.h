@@ -143,12 +143,12 @@ RW_SEGMENTATION_INLINE bool is_solid(std::size_t faces_with_thickness, std::size
 
 constexpr double fewest_thickness_samples = 3;  // of which the mean is told, as for Size_aware_cost
 // What keeps logarithms and quotients of nothing finite.
-constexpr double least_length = 1e-9;
-constexpr double least_area = 1e-9;
+constexpr double least_feature_length = 1e-9;
+constexpr double least_feature_area = 1e-9;
 constexpr double least_excess = 0.1;  // that of Size_aware_cost
 
 inline double log_excess(double excess, double length) {
-  return std::log(std::max(excess, 0.) / std::max(length, least_length) + least_excess);
+  return std::log(std::max(excess, 0.) / std::max(length, least_feature_length) + least_excess);
 }
 
 RW_SEGMENTATION_INLINE Merge_features::Merge_features(const Region_shape& first, const Region_shape& second,
@@ -160,9 +160,9 @@ RW_SEGMENTATION_INLINE Merge_features::Merge_features(const Region_shape& first,
   const Boundary_shape& outline_of_small = is_in_order ? outline_of_first : outline_of_second;
   const Boundary_shape& outline_of_large = is_in_order ? outline_of_second : outline_of_first;
 
-  const double a = std::max(small.area, least_area), b = std::max(large.area, least_area);
+  const double a = std::max(small.area, least_feature_area), b = std::max(large.area, least_feature_area);
   value_[size] = std::log(a * b / (a + b));
-  value_[length] = std::log(std::max(common.length, least_length));
+  value_[length] = std::log(std::max(common.length, least_feature_length));
   value_[small_area] = std::log(a);
   value_[large_area] = std::log(b);
   value_[whole_area] = std::log(a + b);
@@ -182,7 +182,7 @@ RW_SEGMENTATION_INLINE void Merge_features::set_concavity(const Region_shape& sm
                                                           const Boundary_shape& outline_of_large) {
   constexpr double least_turn_of_order_half = 0.05, least_turn_of_order_fourth = 0.02, least_permeability = 0.02;
   constexpr double least_curvature = 0.3;
-  const double l = std::max(common.length, least_length);
+  const double l = std::max(common.length, least_feature_length);
   const double root = common.root / l, fourth_root = common.fourth_root / l;
   value_[excess] = log_excess(common.excess, l);
   value_[turn_of_order_half] = std::log(root * root + least_turn_of_order_half);
@@ -231,8 +231,8 @@ RW_SEGMENTATION_INLINE void Merge_features::set_curve(const Region_shape& small,
                                                       const Boundary_shape& common) {
   constexpr double pi = 3.14159265358979324;
   constexpr double least_moment = 1e-12, least_cross_section = 0.003;
-  const double l = std::max(common.length, least_length);
-  const double a = std::max(small.area, least_area), b = std::max(large.area, least_area);
+  const double l = std::max(common.length, least_feature_length);
+  const double a = std::max(small.area, least_feature_area), b = std::max(large.area, least_feature_area);
   const Eigen::Vector3d middle = common.middle / l, between = large.centroid / b - small.centroid / a;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
   axes.computeDirect(common.moment / l - middle * middle.transpose());
@@ -242,7 +242,7 @@ RW_SEGMENTATION_INLINE void Merge_features::set_curve(const Region_shape& small,
   value_[roundness] = std::sqrt(moments[1] / moments[2]);
   // That of an ellipse with these moments.
   value_[cross_section] = std::log(2 * pi * std::sqrt(moments[1] * moments[2]) / a + least_cross_section);
-  value_[across] = std::abs(axes.eigenvectors().col(0).dot(between)) / std::max(between.norm(), least_length);
+  value_[across] = std::abs(axes.eigenvectors().col(0).dot(between)) / std::max(between.norm(), least_feature_length);
 }
 
 RW_SEGMENTATION_INLINE const Boosted_trees& learned_trees() {

@@ -92,9 +92,9 @@ inline Tile_neighbourhoods neighbourhoods_in(const Dual_mesh& mesh, const Tile_i
   Face_patches patches(mesh);
   std::unordered_map<Index, Index> number;
   const auto copy = [&](Index f) {
-    const auto [place, is_new] = number.emplace(f, Index(0));
-    if (is_new) place->second = sampling.add(f);
-    return place->second;
+    const auto [known, is_new] = number.emplace(f, Index(0));
+    if (is_new) known->second = sampling.add(f);
+    return known->second;
   };
   const auto& [tile, plan] = place;
   for (const Index f : noise_trials(mesh.number_of_faces(), plan.faces_of_mesh, plan.tiles[tile].faces_before)) {

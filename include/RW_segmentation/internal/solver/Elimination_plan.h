@@ -209,13 +209,13 @@ inline std::vector<Dual_graph::Index> Elimination_plan::number_in_postorder(cons
     if (parent[root] != none) continue;
     path.push_back(static_cast<Index>(root));
     while (!path.empty()) {
-      const Index top = path.back();
-      if (const Index child = first_child[top]; child != none) {
-        first_child[top] = sibling[child];
+      const Index last = path.back();
+      if (const Index child = first_child[last]; child != none) {
+        first_child[last] = sibling[child];
         path.push_back(child);
       } else {
-        number[top] = static_cast<Index>(order.size());
-        order.push_back(face[top]);
+        number[last] = static_cast<Index>(order.size());
+        order.push_back(face[last]);
         path.pop_back();
       }
     }
@@ -266,16 +266,16 @@ inline void Elimination_plan::group_columns(const std::vector<Index>& parent, co
   const std::size_t n = face.size();
   std::vector<double> zeros;  // explicit ones in each supernode
   const auto merge_last_two = [&] {
-    const Supernode &child = supernodes[supernodes.size() - 2], &top = supernodes.back();
+    const Supernode &child = supernodes[supernodes.size() - 2], &last = supernodes.back();
     const Index above = parent[child.end - 1];
-    if (above == none || above < top.begin || above >= top.end) return false;
-    const double below = child.column_count(), own = top.column_count(), columns = below + own;
-    const double new_zeros = zeros[zeros.size() - 2] + zeros.back() + below * (own + top.row_count - child.row_count);
-    const double share = new_zeros / (columns * (columns + 1) / 2 + columns * top.row_count);
+    if (above == none || above < last.begin || above >= last.end) return false;
+    const double below = child.column_count(), own = last.column_count(), columns = below + own;
+    const double new_zeros = zeros[zeros.size() - 2] + zeros.back() + below * (own + last.row_count - child.row_count);
+    const double share = new_zeros / (columns * (columns + 1) / 2 + columns * last.row_count);
     const bool worth = new_zeros == 0 || columns <= 4 || (columns <= 16 && share < 0.5) ||
                        (columns <= 48 && share < 0.15) || share < 0.05;
     if (!worth) return false;
-    supernodes[supernodes.size() - 2] = {child.begin, top.end, none, 0, 0, top.row_count, 0};
+    supernodes[supernodes.size() - 2] = {child.begin, last.end, none, 0, 0, last.row_count, 0};
     supernodes.pop_back();
     zeros.pop_back();
     zeros.back() = new_zeros;
