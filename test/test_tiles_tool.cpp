@@ -374,11 +374,13 @@ TEST_F(Tiles, WithPolygonsRefuseSmoothBoundariesBeforeTheWork) {
   const std::vector<std::vector<std::string>> all_options = {
       {"--refine"}, {"--boundaries", "%.obj"}, {"--smooth", "--boundaries", "%.obj"}, {"--refine", "--engineering"}};
   for (const std::vector<std::string>& options : all_options) {
-    fs::remove_all(path("work"));
     expect_failure(3, refusal, in_folder(options));
-    EXPECT_FALSE(fs::exists(path("work/parts")));
+    EXPECT_FALSE(fs::exists(path("work")));
   }
-  expect_failure(3, refusal, in_folder({"--refine", "--engineering", "--tile-step", "plan"}));
+  const std::vector<std::string> surfaces = {"--refine", "--engineering", "--tile-step"};
+  for (std::size_t t = 0; t < 4; ++t)
+    ASSERT_EQ(run(in_folder(surfaces + std::vector<std::string>{"survey", "--tile", std::to_string(t)})).exit_code, 0);
+  expect_failure(3, refusal, in_folder(surfaces + std::vector<std::string>{"plan"}));
 
   fs::remove_all(path("work"));
   EXPECT_EQ(run(in_folder({})).exit_code, 0);
@@ -397,6 +399,11 @@ TEST_F(Tiles, LeaveNothingOfCallsThatAreWrong) {
     return arguments;
   };
   const std::vector<std::vector<std::string>> wrong_calls = {elsewhere({}),
+                                                             elsewhere({"--tile-step", "survey", "--tile", "0"}),
+                                                             elsewhere({"--tile-step", "plan"}),
+                                                             command({"--tile-step", "shape", "--tile", "1"}),
+                                                             command({"--tolerance", "0.5"}),
+                                                             command({"--tolerance", "0.5", "--engineering"}),
                                                              {"--list", "list.txt", "--tiled", "--labels", "%.seg"},
                                                              command({"--constraints", "none/%.walls"}),
                                                              command({"--report", "none/report.json"}),
@@ -428,7 +435,9 @@ TEST_F(Tiles, ThatAreOutOfReachForATimeKeepTheWorkOnThem) {
   const auto before = fs::last_write_time(path("work/shape_0"));
   const auto labels = take_labels();
   for (std::size_t t = 0; t < 4; ++t) fs::rename(path(name(t)), path(name(t) + ".away"));
-  expect_failure(2, "tile_0.off: no such file, nor any of the other tiles", command({"--tile-folder", "work"}));
+  constexpr const char* refusal = "tile_0.off: no such file, nor any of the other tiles";
+  expect_failure(2, refusal, command({"--tile-folder", "work"}));
+  expect_failure(2, refusal, command({"--tile-folder", "work", "--tile-step", "survey", "--tile", "0"}));
   for (std::size_t t = 0; t < 4; ++t) fs::rename(path(name(t) + ".away"), path(name(t)));
   ASSERT_EQ(run(command({"--tile-folder", "work"})).exit_code, 0);
   EXPECT_EQ(fs::last_write_time(path("work/shape_0")), before);

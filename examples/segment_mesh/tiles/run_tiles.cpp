@@ -58,10 +58,13 @@ class Work_folder {
 
   const std::string& path() const { return path_; }
 
+  /// Whether no call has done a step in it.
+  bool is_unclaimed() const { return !fs::exists(path_ + "/" + parameters_file); }
+
   /// Refuses a folder that other tiles or options have left their files in, or where others would be taken for such files.
   /// \param files that steps leave
   void claim(const std::string& parameters, const std::vector<std::string>& files) {
-    is_new_ = !fs::exists(path_ + "/" + parameters_file);
+    is_new_ = is_unclaimed();
     if (is_new_)
       for (const std::string& of_step : files)
         if (fs::exists(of_step))
@@ -75,9 +78,11 @@ class Work_folder {
     keep(parameters_file, parameters);
   }
 
-  /// Leaves the folder as it was before it was claimed, once all files of steps are gone; one that was claimed before stays so.
-  void give_up() {
+  /// Leaves the folder as it was before it was claimed, if tiles have been surveyed since and nothing else; one that was claimed
+  /// before stays so.
+  void give_up(const Tile_steps& steps) {
     if (!is_new_) return;
+    for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) steps.forget(steps.named("survey"), t);
     for (const char* file : {parameters_file, parting_file, seeding_file, seeds_file}) fs::remove(path_ + "/" + file);
     is_claimed_ = false;
   }
@@ -188,8 +193,9 @@ void check_tiles_are_there(const std::vector<Task>& tiles) {
                                       (tiles.size() > 1 ? ", nor any of the other tiles" : ""));
 }
 
-/// Refuses a single step that there is none of.
-void check_step(const Tile_steps& steps, const Options& options) {
+/// Refuses a single step that there is none of, and one that would find nothing that it could begin with.
+void check_step(const Tile_steps& steps, const std::vector<Task>& tiles, const Work_folder& folder,
+                const Options& options) {
   const Tile_step& step = steps.named(options.tile_step);
   if (step.is_of_each_tile != options.tile.has_value())
     throw CLI::ValidationError("--tile", step.is_of_each_tile ? "this step is done for one tile: tell which"
@@ -197,6 +203,11 @@ void check_step(const Tile_steps& steps, const Options& options) {
   if (options.tile && *options.tile >= steps.number_of_tiles())
     throw Argument_out_of_range("--tile is " + std::to_string(*options.tile) + ", but there are " +
                                 counted(steps.number_of_tiles(), "tile") + ", numbered from 0");
+  if (step.name == std::string("survey"))
+    check_tiles_are_there(tiles);
+  else if (folder.is_unclaimed())
+    throw mesh_files::Unreadable_file("--tile-folder " + folder.path() +
+                                      ": no step has been done in it; the first one is --tile-step survey");
 }
 
 /// Lets memory that is freed be used again in this process, which ends after a step: to give it back and to get it anew takes
@@ -245,16 +256,21 @@ Exit_code do_all_steps(const Tile_steps& steps, Work_folder& folder, const Optio
     for (const std::size_t lost : of_step.lost)
       say((step.is_of_each_tile ? steps.name_of(lost) + ": " : "") + "step " + step.name +
           ": the job was lost each time, as its worker was killed");
+    if (code == wrong_argument && step.name == std::string("plan")) folder.give_up(steps);  // to other options
     if (code != success) return code;
     costs[step.name] = {{"jobs", jobs.size()}, {"seconds", of_step.seconds}, {"largest_job_mb", of_step.megabytes}};
     if (step.name != std::string("survey")) continue;
     if (steps.failures().size() == steps.number_of_tiles()) {
       for (const std::string& failure : steps.failures()) say(failure);
-      for (std::size_t t = 0; t < steps.number_of_tiles(); ++t) steps.forget(step, t);
-      folder.give_up();  // to the right paths, if these are wrong
+      folder.give_up(steps);  // to the right paths, if these are wrong
       return unreadable_input;
     }
-    steps.check_triangles();
+    try {
+      steps.check_triangles();
+    } catch (const Argument_out_of_range&) {
+      folder.give_up(steps);
+      throw;
+    }
   }
   report = steps.read_report();
   report["steps"] = std::move(costs);
@@ -306,7 +322,7 @@ Exit_code run_tiles(std::vector<Task> tiles, const Options& options, Json& repor
     check_tiles_are_there(tiles);
     check_folders(tiles, path_of_report(options), steps);
   } else {
-    check_step(steps, options);
+    check_step(steps, tiles, folder, options);
   }
   folder.claim(steps.parameters(), steps.files());
   survive_signals(options.tile_step.empty() ? ask_to_end : interrupt);
