@@ -440,7 +440,13 @@ TEST_F(Segment_mesh_tool, RefineCutsAllOutputsAlongSmoothBoundaries) {
 
   write("grid.off", grid(4));
   std::filesystem::remove_all(path("parts"));
-  expect_failure(3, "no triangle", {"grid.off", "--seed", "0", "--seed", "9", "--refine", "--output", "g.off"});
+  write("no_edge.txt", "0 24\n");  // refused where walls are marked, which is before the segmentation
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--refine"},
+                                                  {"--refine", "--engineering"},
+                                                  {"--boundaries", "b.obj"},
+                                                  {"--smooth", "--boundaries", "b.obj"}})
+    expect_failure(3, "grid.off: face 0 is no triangle",
+                   std::vector<std::string>{"grid.off", "--constraints", "no_edge.txt", "--output", "g.off"} + options);
   expect_failure(1, "--smooth", {"sheet.off", "--smooth"});
 }
 

@@ -139,6 +139,7 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   refuse_mesh_without_faces(task.mesh, input);
   input.remarks.insert(input.remarks.begin(), soup.remarks.begin(), soup.remarks.end());
   remark(input.remarks);
+  check_triangles(task.mesh, input, options);
 
   const std::vector<Face_label> seeds = seed_faces(seed_texts, input);
   const Wall_map walls = walls_of(options, constraints, soup, input.mesh);

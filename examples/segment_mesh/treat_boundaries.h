@@ -12,6 +12,9 @@
 #include "Stages.h"
 #include "walls.h"
 
+#include <cstddef>
+#include <string>
+
 namespace segment_mesh {
 
 /// Whether boundaries are written or cut into the mesh.
@@ -22,6 +25,16 @@ inline bool treats_boundaries(const Options& options) {
 /// Whether boundaries are smoothed before that.
 inline bool smooths_boundaries(const Options& options) {
   return options.is_refined || (options.is_smooth && treats_boundaries(options));
+}
+
+/// Refuses a mesh whose boundaries cannot be smoothed or cut, which only the stage after the segmentation would find out.
+/// \throws Argument_out_of_range if boundaries are asked for and a face is no triangle
+inline void check_triangles(const std::string& path, const Oriented_mesh& input, const Options& options) {
+  if (!treats_boundaries(options)) return;
+  for (std::size_t f = 0; f < input.mesh_face.size(); ++f)
+    if (input.mesh_face[f] != Mesh::null_face() && input.mesh.degree(input.mesh_face[f]) != 3)
+      throw Argument_out_of_range(path + ": face " + std::to_string(f) +
+                                  " is no triangle: boundaries are smoothed and cut on triangle meshes only");
 }
 
 /// Writes the boundaries and cuts them into the mesh, as far as asked for.
