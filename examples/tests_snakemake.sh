@@ -3,7 +3,8 @@
 # tests_snakemake.sh SEGMENT_MESH DATA_MESHES FOLDER RECIPES
 # What the recipes for Snakemake do with files that Snakemake by itself mistakes: those of a name with braces are refused
 # before anything is made, an older file in the place of another one is segmented anew, other options and folders are taken,
-# commas stay in their column. Works in FOLDER. Returns 77 where Snakemake is missing; in CI (CI=true) that is a failure.
+# commas stay in their column, and names of tiles may begin with "#". Works in FOLDER. Returns 77 where Snakemake is missing;
+# in CI (CI=true) that is a failure.
 set -euo pipefail
 tool=$1 data=$2 folder=$3 recipes=$4
 PATH=$(dirname "$tool"):$PATH
@@ -62,3 +63,9 @@ segment_tiles meshes work 'la{bels}' '--segments 7' || fail "the recipe for tile
 [ "$(labels 'la{bels}'/*.seg)" -eq 7 ] || fail "other options for tiles went unnoticed"
 segment_tiles meshes work elsewhere '--segments 7' || fail "the recipe for tiles failed with another folder"
 diff -r 'la{bels}' elsewhere || fail "another folder for labels went unnoticed"
+
+mkdir numbered
+cp "$data/u.off" 'numbered/#1.off'
+cp "$data/sphere.off" 'numbered/#2.off'
+(cd numbered && segment_tiles . ../work_of_numbered ../labels_of_numbered) || fail "the recipe failed with # in names"
+[ "$(faces 'labels_of_numbered/#1.seg')" -eq 168 ] || fail "a name that begins with # was taken for a comment"

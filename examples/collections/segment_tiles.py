@@ -4,7 +4,8 @@
 
     python segment_tiles.py WORK_FOLDER OUTPUT_FOLDER TILE ... [--scheduler ADDRESS] [--workers N] [--options "..."]
 
-All workers must see the folders and find `segment_mesh`. A task whose worker is lost is done again by another one; run
+All workers must see the folders, under the same paths, and find `segment_mesh`. Files that options name need whole paths
+where workers run in another folder than this program. A task whose worker is lost is done again by another one; run
 again, the program does what is left. Files that options name, such as walls, are not watched: after a change remove the
 work folder. Needs dask.distributed.
 """
@@ -128,11 +129,14 @@ def main() -> None:
     arguments = parser.parse_args()
     if all(version_of(tile) is None for tile in arguments.tiles):  # wrong paths would claim the work folder
         parser.error(f"{arguments.tiles[0]}: no such file, nor any of the others")
+    # Workers may run in other folders, and a path that begins with "#" would be a comment in the list of tiles.
+    work, outputs = arguments.work.absolute(), arguments.outputs.absolute()
+    tiles = [str(Path(tile).absolute()) for tile in arguments.tiles]
     cluster = arguments.scheduler or LocalCluster(
         n_workers=arguments.workers, threads_per_worker=1, dashboard_address=":0"
     )
     with Client(cluster) as client:
-        segment(client, arguments.work, arguments.outputs, arguments.tiles, shlex.split(arguments.options))
+        segment(client, work, outputs, tiles, shlex.split(arguments.options))
 
 
 if __name__ == "__main__":

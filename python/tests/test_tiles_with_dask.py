@@ -107,6 +107,33 @@ def test_a_killed_worker_changes_nothing(
     assert contents(tmp_path / "labels") == expected
 
 
+def test_paths_are_those_of_the_caller_wherever_workers_run(
+    tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", environment(tool)["PATH"])
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as cluster:
+        scheduler = ["--scheduler", cluster.scheduler_address]
+        names = [Path(tile).name for tile in tiles]
+        for tile, name in zip(tiles, names, strict=True):
+            shutil.copyfile(tile, tmp_path / name)
+        subprocess.run([sys.executable, str(RECIPE), "work", "labels", *names, *scheduler], cwd=tmp_path, check=True)
+    assert contents(tmp_path / "labels") == expected
+
+
+def test_a_tile_may_have_a_name_that_would_be_a_comment(
+    tool: Path, tiles: list[str], expected: dict[str, str], tmp_path: Path
+) -> None:
+    names = ["#hand.off", "tripod.off"]
+    for tile, name in zip(tiles, names, strict=True):
+        shutil.copyfile(tile, tmp_path / name)
+    of_recipe = [sys.executable, str(RECIPE), "work", "labels", *names, "--workers", "1"]
+    subprocess.run(of_recipe, env=environment(tool), cwd=tmp_path, check=True)
+    labels = contents(tmp_path / "labels")
+    assert labels == {"#hand.seg": expected["hand.seg"], "tripod.seg": expected["tripod.seg"]}
+
+
 def test_a_step_that_fails_is_told(tool: Path, tiles: list[str], tmp_path: Path) -> None:
     result = subprocess.run(
         [*command(tmp_path, tiles), "--workers", "1", "--options", "--segments 1"],
