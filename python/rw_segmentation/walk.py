@@ -36,7 +36,8 @@ class RandomWalk:
     difference, face_features
         See `segment()`.
     conductance : array_like of float, shape (e,), optional
-        How easily a walk crosses each interior edge, in place of what the difference makes; see `conductance()`.
+        How easily a walk crosses each interior edge, in place of what the difference and the policy's choices for it make; see
+        `conductance()`.
     walls, repair, progress
         See `segment()`; progress is that of reading the mesh and measuring the difference.
 
@@ -79,6 +80,10 @@ class RandomWalk:
         conductances = None if conductance is None else numbers_of(conductance, "the conductance")
         if conductances is not None and (difference is not None or face_features is not None):
             raise ValueError("conductance: it takes the place of the difference, leave one of the two out")
+        if conductances is not None:
+            for choice in ("smoothing", "convex_weight", "measure", "radius", "sigma", "cap"):
+                if getattr(chosen, choice) is not None:
+                    raise ValueError(f"conductance: the policy's {choice} has no part in it, leave one of the two out")
         with reporting(progress, "difference") as told:
             self._core = _core.Walk(mesh, chosen.choices(None, name), values, conductances, walls_of(walls), told)
 

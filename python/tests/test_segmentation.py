@@ -116,6 +116,23 @@ def test_probabilities_solve_the_equations_of_the_walk(elephant: Mesh) -> None:
     assert agree.mean() > 0.99  # all but faces that are cut off from their seed
 
 
+@pytest.mark.parametrize(
+    ("choice", "policy"),
+    [("sigma", rw.Policy(sigma=sigma)) for sigma in (float("nan"), float("inf"), -1.0, 0.5)]
+    + [
+        ("cap", rw.Policy(cap=10.0)),
+        ("smoothing", rw.Policy(smoothing=0.0)),
+        ("convex_weight", rw.Policy("paper", convex_weight=0.5)),
+        ("measure", rw.Policy(measure="cosine")),
+        ("radius", rw.Policy(radius=2.0)),
+    ],
+)
+def test_conductances_leave_no_choice_of_the_policy_unused(elephant: Mesh, choice: str, policy: rw.Policy) -> None:
+    conductance = np.ones(len(rw.interior_edges(*elephant).faces))
+    with pytest.raises(ValueError, match=f"conductance: the policy's {choice} has no part in it"):
+        rw.RandomWalk(*elephant, conductance=conductance, policy=policy)
+
+
 def test_edited_seeds_give_what_a_new_walk_gives(elephant: Mesh) -> None:
     random = np.random.default_rng(5)
     walk = rw.RandomWalk(*elephant)
