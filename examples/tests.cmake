@@ -104,6 +104,8 @@ example_test(segment_mesh.refine segment_mesh
   PRINTS "\n    7 +[0-9]+ +[0-9.]+ %\n"
   WRITES boundaries.obj segments.ply segments.seg)
 
+# What follows with a cost takes some seconds and begins before the many short tests, lest it runs alone at the end.
+
 # Under valgrind nothing is read before it is set, nor lost. CGAL's checks of rounding modes, which valgrind does not
 # know, are compiled in without NDEBUG.
 find_program(VALGRIND valgrind)
@@ -113,7 +115,7 @@ if(VALGRIND AND TARGET segment_mesh AND data_dir AND CMAKE_BUILD_TYPE STREQUAL R
     COMMAND ${VALGRIND} --quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=99
       $<TARGET_FILE:segment_mesh> ${meshes}/pipe.off --smooth --refine --output memcheck.ply --labels memcheck.seg
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-  set_tests_properties(example.segment_mesh.memcheck PROPERTIES LABELS example TIMEOUT 300)
+  set_tests_properties(example.segment_mesh.memcheck PROPERTIES LABELS example COST 5 TIMEOUT 300)
 endif()
 
 # CGAL's remeshing and approximation of segments.
@@ -133,7 +135,7 @@ function(collection_test name program)
   add_test(NAME example.collection.${name}
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_collection.sh ${program} $<TARGET_FILE:segment_mesh> ${meshes}
       ${CMAKE_CURRENT_BINARY_DIR}/tests/collection.${name} ${ARGN})
-  set_tests_properties(example.collection.${name} PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+  set_tests_properties(example.collection.${name} PROPERTIES LABELS example COST 5 TIMEOUT 300 SKIP_RETURN_CODE 77)
 endfunction()
 set(collections ${CMAKE_CURRENT_SOURCE_DIR}/collections)
 collection_test(parallel parallel ${collections}/parallel.sh meshes outputs)
@@ -150,12 +152,14 @@ if(TARGET segment_mesh AND data_dir)
         ${CMAKE_CURRENT_BINARY_DIR}/tests/tiles.snakemake${options} "${options}"
         snakemake --snakefile ${collections}/Snakefile_tiles --cores 2
         --config tiles=tiles work=work outputs=outputs "options=${options}")
-    set_tests_properties(example.tiles.snakemake${options} PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+    set_tests_properties(example.tiles.snakemake${options} PROPERTIES LABELS example COST 5 TIMEOUT 300
+      SKIP_RETURN_CODE 77)
   endforeach()
   add_test(NAME example.collection.snakemake.files
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests_snakemake.sh $<TARGET_FILE:segment_mesh> ${meshes}
       ${CMAKE_CURRENT_BINARY_DIR}/tests/collection.snakemake.files ${collections})
-  set_tests_properties(example.collection.snakemake.files PROPERTIES LABELS example TIMEOUT 300 SKIP_RETURN_CODE 77)
+  set_tests_properties(example.collection.snakemake.files PROPERTIES LABELS example COST 5 TIMEOUT 300
+    SKIP_RETURN_CODE 77)
 endif()
 
 # The tool's own tests run the tool.
