@@ -7,11 +7,8 @@
 // but are none. They are written by code of their own, which knows nothing of what reads them.
 
 #include "defects.h"
+#include "packed_bytes.h"
 #include "vtp_files.h"
-
-#ifdef RW_SEGMENTATION_WITH_ZLIB
-#include <zlib.h>
-#endif
 
 #include <algorithm>
 #include <cctype>
@@ -157,17 +154,7 @@ inline std::string utf16(const std::string& text, bool has_mark) {
 
 #ifdef RW_SEGMENTATION_WITH_ZLIB
 inline std::string packed(const std::string& content) {
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string result(deflateBound(&stream, static_cast<uLong>(content.size())), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = static_cast<uInt>(content.size());
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  deflate(&stream, Z_FINISH);
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  return result;
+  return packed_bytes::packed(content, packed_bytes::Wrapping::gzip);
 }
 #endif
 

@@ -362,23 +362,7 @@ TEST(Mesh_dialects, WhatIsNoMeshIsCalledByItsName) {
 
 #ifdef RW_SEGMENTATION_WITH_ZLIB
 
-namespace {
-
-std::string packed(const std::string& content) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string result(content.size() + 100, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = static_cast<uInt>(content.size());
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  return result;
-}
-
-}  // namespace
+using dialects::packed;
 
 TEST(Mesh_dialects, GzipIsKnownByItsFirstBytes) {
   for (const auto& [name, content] : {std::pair<std::string, std::string>("t.off.gz", off),

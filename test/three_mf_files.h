@@ -6,10 +6,7 @@
 // 3MF files in all the forms of their archives, written by code of its own, which knows nothing of what reads them.
 
 #include "mesh_bytes.h"
-
-#ifdef RW_SEGMENTATION_WITH_ZLIB
-#include <zlib.h>
-#endif
+#include "packed_bytes.h"
 
 #include <boost/crc.hpp>
 
@@ -54,22 +51,12 @@ inline std::vector<Form> all_forms() {
   return forms;
 }
 
-inline std::string deflated([[maybe_unused]] const std::string& content) {
+/// What an archive has of the bytes.
+inline std::string packed(const std::string& content, [[maybe_unused]] bool is_packed) {
 #ifdef RW_SEGMENTATION_WITH_ZLIB
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY);
-  std::string result(deflateBound(&stream, content.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = static_cast<uInt>(content.size());
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  deflate(&stream, Z_FINISH);
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  return result;
-#else
-  return content;
+  if (is_packed) return packed_bytes::packed(content, packed_bytes::Wrapping::none);
 #endif
+  return content;
 }
 
 using Short = std::uint16_t;
@@ -80,7 +67,7 @@ inline std::string archive(const Parts& parts, const Form& form = {}) {
   constexpr Word elsewhere = 0xffffffff;
   std::string content, list;
   for (const auto& [name, text] : parts) {
-    const std::string data = form.is_packed ? deflated(text) : text;
+    const std::string data = packed(text, form.is_packed);
     boost::crc_32_type sum;
     sum.process_bytes(text.data(), text.size());
     const Short method = form.method      ? form.method

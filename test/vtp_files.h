@@ -6,10 +6,7 @@
 // Polygons as VTP files in all their forms, written by code of its own, which knows nothing of what reads them.
 
 #include "mesh_bytes.h"
-
-#ifdef RW_SEGMENTATION_WITH_ZLIB
-#include <zlib.h>
-#endif
+#include "packed_bytes.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -72,14 +69,7 @@ inline std::string stored(const std::string& content) {
 
 inline std::string packed(const std::string& content, [[maybe_unused]] Packing packing) {
 #ifdef RW_SEGMENTATION_WITH_ZLIB
-  if (packing == Packing::zlib) {
-    uLongf size = compressBound(static_cast<uLong>(content.size()));
-    std::string result(size, '\0');
-    compress(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(content.data()),
-             static_cast<uLong>(content.size()));
-    result.resize(size);
-    return result;
-  }
+  if (packing == Packing::zlib) return packed_bytes::packed(content, packed_bytes::Wrapping::zlib);
 #endif
   return stored(content);
 }
