@@ -45,10 +45,10 @@ struct Object {
   Polygon_soup mesh;
   std::vector<Placement> components;
 
-  // Once it has been counted:
-  double size =
-      0;  ///< the vertices and corners of its faces and of those of its components, as often as these are put into it
-  std::size_t deepest = 0;  ///< in how many others it was, at most, and one more
+  /// The vertices and corners of its faces and of those of its components, as often as these are put into it.
+  double size = 0;
+  /// In how many others it was, at most, when that was counted, and one more.
+  std::size_t deepest = 0;
 };
 
 /// What a part of the package holds: objects, and which of them are built.
