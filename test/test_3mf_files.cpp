@@ -301,7 +301,7 @@ TEST(Files_of_3mf, WithBrokenArchivesAreRefusedWithTheFault) {
 
 TEST(Files_of_3mf, ThatAreDamagedAreRefusedOrHoldWhatTheyHeld) {
   for (const Form& form : three_mf_files::all_forms()) {
-    if (form.has_sizes_behind_data || !form.comment.empty()) continue;  // which are hardly looked at
+    if (form.has_sizes_behind_data || !form.comment.empty()) continue;  // bytes that tell nothing more
     const std::string whole = archive(package(model(object(1, tetrahedron()), item(1))), form);
     for (std::size_t at = 0; at < whole.size(); ++at)
       for (const char bits : {'\1', '\xff'}) {
@@ -313,6 +313,13 @@ TEST(Files_of_3mf, ThatAreDamagedAreRefusedOrHoldWhatTheyHeld) {
           EXPECT_EQ(std::string(error.what()).substr(0, 10), "test.3mf: ") << form.name() << ", byte " << at;
         }
       }
+  }
+}
+
+TEST(Files_of_3mf, ThatAreCutOffAreRefusedWhereverThatIs) {
+  for (const Form& form : three_mf_files::all_forms()) {
+    if (!form.comment.empty()) continue;  // without which a file is whole
+    const std::string whole = archive(package(model(object(1, tetrahedron()), item(1))), form);
     for (std::size_t size = 0; size < whole.size(); ++size)
       EXPECT_THROW(mesh_files::mesh_of_content("test.3mf", whole.substr(0, size)), mesh_files::Unreadable_file)
           << form.name() << " cut to " << size;

@@ -18,9 +18,10 @@ namespace mesh_files {
 
 /// The tags of a file one after the other, and what is between them, as they stand there: no entity is replaced.
 ///
-/// No parser of XML does for VTK's files. What follows their tags may be any bytes, which makes the file no XML; the texts
-/// are as large as the mesh and need no copy; and that of Boost, which a page in a browser could be built with, calls
-/// itself for each element within another, so that a small file of nothing but `<a>` overflows its stack.
+/// Any parser of XML reads the models of 3MF files. None does for VTK's files: what follows their tags may be any bytes, which
+/// makes the file no XML; the texts are as large as the mesh and need no copy; and that of Boost, which a page in a browser
+/// could be built with, calls itself for each element within another, so that a small file of nothing but `<a>` overflows its
+/// stack.
 class Xml_tags {
  public:
   Xml_tags(const std::string& path, std::string_view content) : path_(path), content_(content) {}

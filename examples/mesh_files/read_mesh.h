@@ -60,7 +60,7 @@ inline Polygon_soup mesh_of_unpacked(const std::string& path, std::string_view c
   if (content.substr(0, byte_order_mark.size()) == byte_order_mark) content.remove_prefix(byte_order_mark.size());
   const std::size_t blanks = std::min(content.find_first_not_of(" \t\r\n\v\f"), content.size());
   if (blanks == content.size()) throw Unreadable_file(path + ": the file is empty");
-  if (stl::is_binary(content)) return read_stl(path, content);
+  if (!is_zip(content) && stl::is_binary(content)) return read_stl(path, content);
   refuse_other_content(path, content.substr(blanks));
 
   // A mark tells more than a name.
