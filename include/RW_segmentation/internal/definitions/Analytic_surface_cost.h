@@ -51,7 +51,7 @@ RW_SEGMENTATION_INLINE Surface_tolerance surface_tolerance(const Dual_mesh& mesh
 }
 
 RW_SEGMENTATION_INLINE std::vector<double> edge_sharpness(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
-  std::vector<double> sharpness = edge_angles(mesh);
+  std::vector<double> sharpness = crease_angles(mesh, tolerance);
   for (Dual_mesh::Index e = 0; e < sharpness.size(); ++e)
     sharpness[e] /= tolerance.sharp_angle(mesh.graph().faces_of(e));
   return sharpness;

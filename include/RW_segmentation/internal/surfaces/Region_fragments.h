@@ -37,7 +37,7 @@ class Region_fragments {
   /// Keeps references to all.
   /// \param conductances of the edges, for the walks
   Region_fragments(const Dual_mesh& mesh, const Surface_tolerance& tolerance, const std::vector<double>& conductances)
-      : mesh_(mesh), tolerance_(tolerance), conductances_(conductances), angles_(edge_angles(mesh)) {}
+      : mesh_(mesh), tolerance_(tolerance), conductances_(conductances), angles_(crease_angles(mesh, tolerance)) {}
 
   /// \param region_of_face `Analytic_regions::none` for the faces of no region
   /// \returns the fragment of each face, numbered from 0

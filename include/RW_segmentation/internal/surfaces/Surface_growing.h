@@ -49,7 +49,8 @@ class Surface_growing {
   Surface_growing(const Dual_mesh& mesh, const Surface_tolerance& tolerance)
       : mesh_(mesh),
         tolerance_(tolerance),
-        patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
+        patches_(mesh, crease_angles(mesh, tolerance),
+                 [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
         growth_(mesh, tolerance, patches_, work_),
         coarse_arcs_(mesh, tolerance, patches_, work_),
         lessons_(mesh.number_of_faces()),

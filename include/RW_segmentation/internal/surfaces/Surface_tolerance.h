@@ -4,6 +4,8 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_TOLERANCE_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/surfaces/Flat_sides.h>
+#include <RW_segmentation/internal/surfaces/edge_angles.h>
 
 #include <Eigen/Core>
 
@@ -16,8 +18,6 @@
 #include <vector>
 
 namespace RW_segmentation::internal {
-
-constexpr double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
 
 /// What the deviations of neighbouring vertices from their surfaces have in common.
 enum class Noise_kind {
@@ -79,6 +79,7 @@ struct Surface_tolerance {
     const double tilts_of_noise = has_noise() ? (is_smooth ? smooth_tilts : 1) * tilts : 0;
     normal_angle.reserve(tilt.size());
     for (const double t : tilt) normal_angle.push_back(std::min(tessellation + tilts_of_noise * t, any_angle));
+    if (!has_noise()) flat_sides_ = Flat_sides(mesh, edge_angles(mesh));
   }
 
   bool has_noise() const { return noise > 0; }
@@ -118,6 +119,9 @@ struct Surface_tolerance {
     return std::max(smooth, angle_of_noise(faces));
   }
 
+  /// Which sides of the solid are too wide to be facets of curved surfaces; none under noise, which turns all faces.
+  const Flat_sides& flat_sides() const { return flat_sides_; }
+
   /// The tolerance of a mesh whose faces are parts of faces of this one.
   /// \param face that each of them is part of
   Surface_tolerance of_parts(const std::vector<Index>& face) const {
@@ -125,6 +129,7 @@ struct Surface_tolerance {
     parts.noise = noise;
     parts.noise_kind = noise_kind;
     parts.is_slight_ = is_slight_;
+    parts.flat_sides_ = flat_sides_;
     parts.distance = distance;
     parts.normal_angle.reserve(face.size());
     for (const Index f : face) parts.normal_angle.push_back(normal_angle[f]);
@@ -163,47 +168,15 @@ struct Surface_tolerance {
   }
 
   bool is_slight_ = false;  // the noise, if there is any
+  Flat_sides flat_sides_;
 };
 
-/// The normals of the shape, and where a face has none that of the face across its longest edge: a triangle without area
-/// at an edge of the solid is part of one side, and no way from one to the other.
-inline std::vector<Eigen::Vector3d> normals_of_all_faces(const Dual_mesh& mesh) {
-  constexpr int most_rounds = 8;  // triangles without area beside each other
-  std::vector<Eigen::Vector3d> normals;
-  normals.reserve(mesh.number_of_faces());
-  std::vector<Dual_mesh::Index> without;
-  for (Dual_mesh::Index f = 0; f < mesh.number_of_faces(); ++f) {
-    normals.push_back(mesh.shape_normal(f));
-    if (normals.back().isZero()) without.push_back(f);
-  }
-  for (int round = 0; round < most_rounds && !without.empty(); ++round) {
-    const std::vector<Eigen::Vector3d> before = normals;
-    std::vector<Dual_mesh::Index> still_without;
-    for (const Dual_mesh::Index f : without) {
-      double longest = -1;
-      for (const auto& [g, e] : mesh.graph().neighbours(f))
-        if (!before[g].isZero() && mesh.edge_lengths()[e] > longest) {
-          longest = mesh.edge_lengths()[e];
-          normals[f] = before[g];
-        }
-      if (longest < 0) still_without.push_back(f);
-    }
-    without = std::move(still_without);
-  }
-  return normals;
-}
-
-/// The angle between the faces of each edge by the normals of the shape, 0 where one of them has none nor a face beside it.
-inline std::vector<double> edge_angles(const Dual_mesh& mesh) {
-  const std::vector<Eigen::Vector3d> normals = normals_of_all_faces(mesh);
-  std::vector<double> angles;
-  angles.reserve(mesh.number_of_edges());
-  for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
-    const auto [f, g] = mesh.graph().faces_of(e);
-    const Eigen::Vector3d &m = normals[f], &n = normals[g];
-    const bool has_angle = !m.isZero() && !n.isZero();
-    angles.push_back(has_angle ? 2 * std::asin(std::min(1., (m - n).norm() / 2)) : 0);
-  }
+/// The angle between the faces of each edge, and a right one at creases between flat sides that meet at less.
+inline std::vector<double> crease_angles(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
+  constexpr double right_angle = radians(90);
+  std::vector<double> angles = edge_angles(mesh);
+  for (Dual_mesh::Index e = 0; e < angles.size(); ++e)
+    if (tolerance.flat_sides().meet_at(mesh, e, angles[e])) angles[e] = right_angle;
   return angles;
 }
 
