@@ -132,6 +132,55 @@ solids::Solid with_zero_area_faces(solids::Solid solid) {
   return solid;
 }
 
+/// A horizontal face with a round stud on it, whose side is divided into so many steps.
+void add_stud(solids::Builder& builder, std::vector<solids::Point> outline, std::size_t steps) {
+  constexpr double radius = 0.3, height = 0.5;
+  const double z = outline.front().z();
+  const std::vector<solids::Point> foot =
+      solids::points_on(solids::arc({0, 0, z}, {radius, 0, 0}, {0, radius, 0}, 0, 2 * solids::half_turn), steps);
+  outline.push_back(outline.front());
+  builder.strip(builder.add(solids::plane({0, 0, z}, {0, 0, 1})), {0, 0, z}, foot, outline);
+  solids::revolve(builder, builder.add(solids::cylinder({0, 0, 0}, {0, 0, 1}, radius)), steps, 1,
+                  solids::line({radius, 0, z}, {radius, 0, z + height}));
+  solids::flat_disc(builder, solids::by_kernel(), steps, radius, z + height, true);
+}
+
+/// A housing of two drafted halves, which meet in a rectangle, with a stud on it; 11 planes, 1 cylinder.
+/// \param draft of each half, in radians
+solids::Solid drafted_housing(double draft) {
+  constexpr double lower = 0.6, upper = 0.4;  // height of either half
+  constexpr std::size_t steps = 60;
+  const auto rectangle = [&](double z) -> std::vector<solids::Point> {
+    const double in = std::abs(z) * std::tan(draft), x = 1 - in, y = 0.8 - in;
+    return {{x, -y, z}, {x, y, z}, {-x, y, z}, {-x, -y, z}};
+  };
+  solids::Builder builder("drafted_housing");
+  const std::vector<std::vector<solids::Point>> rings = {rectangle(-lower), rectangle(0), rectangle(upper)};
+  builder.fan(builder.add(solids::plane({0, 0, -lower}, {0, 0, -1})), {rings[0].rbegin(), rings[0].rend()});
+  for (std::size_t half = 0; half < 2; ++half)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const solids::Point &a = rings[half][i], &b = rings[half][(i + 1) % 4], &c = rings[half + 1][(i + 1) % 4],
+                          &d = rings[half + 1][i];
+      builder.quadrangle(builder.add(solids::plane(a, (b - a).cross(d - a).normalized())), a, b, c, d);
+    }
+  add_stud(builder, rings[2], steps);
+  return std::move(builder).solid();
+}
+
+/// A drum of few wide steps with a stud of many on it; 3 planes, 2 cylinders.
+solids::Solid stud_on_wide_drum() {
+  constexpr std::size_t wide_steps = 24, narrow_steps = 300;
+  solids::Builder builder("stud_on_wide_drum");
+  solids::flat_disc(builder, solids::by_kernel(), wide_steps, 1, -1, false);
+  solids::revolve(builder, builder.add(solids::cylinder({0, 0, 0}, {0, 0, 1}, 1)), wide_steps, 1,
+                  solids::line({1, 0, -1}, {1, 0, 0}));
+  std::vector<solids::Point> rim =
+      solids::points_on(solids::arc({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0, 2 * solids::half_turn), wide_steps);
+  rim.pop_back();
+  add_stud(builder, rim, narrow_steps);
+  return std::move(builder).solid();
+}
+
 /// Of the edges between faces of the solid that are labelled differently.
 double boundary_length(const solids::Solid& solid, const Labels& labels) {
   const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
@@ -573,6 +622,14 @@ TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartThatAreSinglePolygons) {
     prism.faces.push_back(top);
     EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(prism))), sides + 2) << sides << " sides";
   }
+}
+
+TEST(SegmentationIntoSurfaces, LeavesDraftedSidesApartThatTurnLessThanARoundSurface) {
+  for (const double draft : {0.03, 0.06, 0.1}) EXPECT_NO_FATAL_FAILURE(expect_every_face_found(drafted_housing(draft)));
+}
+
+TEST(SegmentationIntoSurfaces, LeavesAWideArcWholeBesideManyNarrowSteps) {
+  expect_every_face_found(stud_on_wide_drum());
 }
 
 TEST(SegmentationIntoSurfaces, GivesAsManySegmentsAsAskedFor) {

@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_FLAT_SIDES_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/edge_angles.h>
 
 #include <algorithm>
@@ -27,22 +28,22 @@ class Flat_sides {
  public:
   using Index = Dual_mesh::Index;
 
-  /// None.
-  Flat_sides() = default;
-
-  /// \param angles of all edges
-  Flat_sides(const Dual_mesh& mesh, const std::vector<double>& angles) {
+  /// Keeps references to both.
+  /// \param angles of all edges, in radians
+  /// \param component that one deflection is reckoned with in
+  Flat_sides(const Dual_mesh& mesh, const std::vector<double>& angles, const Mesh_stretch& component)
+      : mesh_(mesh), angles_(angles) {
     constexpr double most_widths = 0.75, most_deflections = 0.9;  // of the edges
     // At 1 and at 2, overlaps of .9885 and .9602, .9551. On evenly meshed solids, no overlap changes by .0001.
     constexpr double times_the_width = 1.5;
     // At 2 and at 3, overlaps of .9885 and .9628, .9885 and .9600.
     constexpr double times_the_deflection = 2.5;
     std::vector<double> widths, deflections;
-    for (Index e = 0; e < angles.size(); ++e) {
-      if (!may_be_smooth(mesh, e, angles[e])) continue;
-      const double width = widths_beside(mesh, e).wider;
+    for (Index e = component.first_edge; e < component.first_edge + component.edges; ++e) {
+      if (!may_be_smooth(e)) continue;
+      const double width = widths_beside(e).wider;
       widths.push_back(width);
-      deflections.push_back(deflection(width, angles[e]));
+      deflections.push_back(deflection(width, e));
     }
     if (widths.empty()) return;
     largest_width_ = times_the_width * quantile(widths, most_widths);
@@ -50,14 +51,13 @@ class Flat_sides {
   }
 
   /// Whether an edge is a crease between a flat side and another face.
-  /// \param angle between its faces, in radians
-  bool meet_at(const Dual_mesh& mesh, Index edge, double angle) const {
+  bool meet_at(Index edge) const {
     // Steps of an arc are even, and on large ones wide. Without that, overlaps of .9862 and .9601; at .9, of .9885 and .9606.
     constexpr double even = 0.95;
-    if (!may_be_smooth(mesh, edge, angle)) return false;
-    const Widths widths = widths_beside(mesh, edge);
+    if (!may_be_smooth(edge)) return false;
+    const Widths widths = widths_beside(edge);
     return widths.narrower < even * widths.wider && widths.wider > largest_width_ &&
-           deflection(widths.wider, angle) > largest_deflection_;
+           deflection(widths.wider, edge) > largest_deflection_;
   }
 
  private:
@@ -67,23 +67,23 @@ class Flat_sides {
   };
 
   /// Whether faces turn at an edge, and so little that they could be facets of one surface.
-  static bool may_be_smooth(const Dual_mesh& mesh, Index edge, double angle) {
+  bool may_be_smooth(Index edge) const {
     constexpr double least = radians(0.5), most = radians(25);
-    return angle >= least && angle <= most && mesh.edge_length(edge) > 0;
+    return angles_[edge] >= least && angles_[edge] <= most && mesh_.edge_length(edge) > 0;
   }
 
-  static Widths widths_beside(const Dual_mesh& mesh, Index edge) {
-    const auto [f, g] = mesh.graph().faces_of(edge);
-    const double a = width_of(mesh, f, edge), b = width_of(mesh, g, edge);
+  Widths widths_beside(Index edge) const {
+    const auto [f, g] = mesh_.graph().faces_of(edge);
+    const double a = width_of(f, edge), b = width_of(g, edge);
     return {std::min(a, b), std::max(a, b)};
   }
 
   /// Of the quadrilateral that a triangle is half of, as kernels cut them.
-  static double width_of(const Dual_mesh& mesh, Index face, Index edge) {
-    return (mesh.corners(face).size() == 3 ? 2 : 1) * mesh.area(face) / mesh.edge_length(edge);
+  double width_of(Index face, Index edge) const {
+    return (mesh_.corners(face).size() == 3 ? 2 : 1) * mesh_.area(face) / mesh_.edge_length(edge);
   }
 
-  static double deflection(double width, double angle) { return width * angle / 8; }
+  double deflection(double width, Index edge) const { return width * angles_[edge] / 8; }
 
   static double quantile(std::vector<double>& values, double part) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
@@ -91,6 +91,8 @@ class Flat_sides {
     return *middle;
   }
 
+  const Dual_mesh& mesh_;
+  const std::vector<double>& angles_;
   double largest_width_ = std::numeric_limits<double>::infinity();       // of facets of curved surfaces
   double largest_deflection_ = std::numeric_limits<double>::infinity();  // likewise
 };

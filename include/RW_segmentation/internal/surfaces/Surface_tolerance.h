@@ -4,6 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_TOLERANCE_H
 
 #include <RW_segmentation/Dual_mesh.h>
+#include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/Flat_sides.h>
 #include <RW_segmentation/internal/surfaces/edge_angles.h>
 
@@ -79,7 +80,6 @@ struct Surface_tolerance {
     const double tilts_of_noise = has_noise() ? (is_smooth ? smooth_tilts : 1) * tilts : 0;
     normal_angle.reserve(tilt.size());
     for (const double t : tilt) normal_angle.push_back(std::min(tessellation + tilts_of_noise * t, any_angle));
-    if (!has_noise()) flat_sides_ = Flat_sides(mesh, edge_angles(mesh));
   }
 
   bool has_noise() const { return noise > 0; }
@@ -119,9 +119,6 @@ struct Surface_tolerance {
     return std::max(smooth, angle_of_noise(faces));
   }
 
-  /// Which sides of the solid are too wide to be facets of curved surfaces; none under noise, which turns all faces.
-  const Flat_sides& flat_sides() const { return flat_sides_; }
-
   /// The tolerance of a mesh whose faces are parts of faces of this one.
   /// \param face that each of them is part of
   Surface_tolerance of_parts(const std::vector<Index>& face) const {
@@ -129,7 +126,6 @@ struct Surface_tolerance {
     parts.noise = noise;
     parts.noise_kind = noise_kind;
     parts.is_slight_ = is_slight_;
-    parts.flat_sides_ = flat_sides_;
     parts.distance = distance;
     parts.normal_angle.reserve(face.size());
     for (const Index f : face) parts.normal_angle.push_back(normal_angle[f]);
@@ -168,15 +164,19 @@ struct Surface_tolerance {
   }
 
   bool is_slight_ = false;  // the noise, if there is any
-  Flat_sides flat_sides_;
 };
 
-/// The angle between the faces of each edge, and a right one at creases between flat sides that meet at less.
+/// The angle between the faces of each edge, and a right one at creases between flat sides that meet at less. Under noise,
+/// which turns all faces, none is known to be flat.
 inline std::vector<double> crease_angles(const Dual_mesh& mesh, const Surface_tolerance& tolerance) {
   constexpr double right_angle = radians(90);
   std::vector<double> angles = edge_angles(mesh);
-  for (Dual_mesh::Index e = 0; e < angles.size(); ++e)
-    if (tolerance.flat_sides().meet_at(mesh, e, angles[e])) angles[e] = right_angle;
+  if (tolerance.has_noise()) return angles;
+  for (const Mesh_stretch& component : connected_stretches(mesh.graph())) {
+    const Flat_sides sides(mesh, angles, component);
+    for (Dual_mesh::Index e = component.first_edge; e < component.first_edge + component.edges; ++e)
+      if (sides.meet_at(e)) angles[e] = right_angle;
+  }
   return angles;
 }
 
