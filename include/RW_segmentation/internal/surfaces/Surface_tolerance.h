@@ -8,14 +8,11 @@
 #include <RW_segmentation/internal/surfaces/Flat_sides.h>
 #include <RW_segmentation/internal/surfaces/edge_angles.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
