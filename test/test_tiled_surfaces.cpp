@@ -103,7 +103,7 @@ struct Given_cylinder {
     const Shape along_z = meshes::scaled(meshes::tube(height / radius, 60, 80), radius);
     Eigen::Affine3d map = Eigen::Affine3d::Identity();
     map.translate(point);
-    map.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis));
+    map.rotate(Eigen::AngleAxisd(solids::half_turn, (Eigen::Vector3d::UnitZ() + axis).normalized()));
     return meshes::transformed(along_z, map);
   }
 };
