@@ -54,13 +54,13 @@ inline Signed_distance union_of(std::vector<Limb> limbs, double fillet) {
 /// triangles for each edge of the grid.
 class Surface_nets {
  public:
-  /// The function is positive on the border of the cube from (-1, -1, -1) to (1, 1, 1). It may change by a little more than
-  /// the way, as the distance from a limb does.
+  /// The function is positive on the border of the cube from (-1, -1, -1) to (1, 1, 1), and changes by at most `steepest`
+  /// times the way.
   Surface_nets(const Signed_distance& distance, std::size_t cells)
       : distance_(distance), points_(cells + 1), values_(points_ * points_ * points_) {
-    for (std::size_t z = 0; z < points_; z += block)
-      for (std::size_t y = 0; y < points_; y += block)
-        for (std::size_t x = 0; x < points_; x += block) evaluate_block({x, y, z});
+    for (std::size_t z = 0; z < points_; z += block_size)
+      for (std::size_t y = 0; y < points_; y += block_size)
+        for (std::size_t x = 0; x < points_; x += block_size) evaluate_block({x, y, z});
   }
 
   mesh_files::Polygon_soup mesh() {
@@ -76,12 +76,12 @@ class Surface_nets {
   Grid_point grid_point(std::size_t index) const {
     return {index % points_, index / points_ % points_, index / points_ / points_};
   }
+
   /// Where the surface crosses no edge of the grid at a block of points, one value tells their sign, and no more is asked of
   /// them.
   void evaluate_block(const Grid_point& lowest) {
-    constexpr double steepest = 1.1;  // a limb's radius changes by at most .21 a length
     Grid_point highest;
-    for (std::size_t i = 0; i < 3; ++i) highest[i] = std::min(lowest[i] + block, points_) - 1;
+    for (std::size_t i = 0; i < 3; ++i) highest[i] = std::min(lowest[i] + block_size, points_) - 1;
     const Position low = position(lowest), high = position(highest);
     const double in_the_middle = distance_((low + high) / 2);
     const double edge = 2 / static_cast<double>(points_ - 1);
@@ -149,7 +149,8 @@ class Surface_nets {
     return result.squaredNorm() > 0 ? Position(result / result.squaredNorm()) : result;
   }
 
-  static constexpr std::size_t block = 4;  // points along each axis: of 2, 4 and 8 the fastest
+  static constexpr double steepest = 1.1;       // radii of limbs change by at most .22 a length, which makes it 1.03
+  static constexpr std::size_t block_size = 4;  // points along each axis: the fastest of 2 to 16
 
   const Signed_distance& distance_;
   std::size_t points_;  // along each axis
