@@ -632,6 +632,33 @@ TEST(SegmentationIntoSurfaces, LeavesAWideArcWholeBesideManyNarrowSteps) {
   expect_every_face_found(stud_on_wide_drum());
 }
 
+/// The segments of what a curve sweeps out between two flat ends.
+Labels segments_of_turned(const std::vector<Eigen::Vector2d>& curve) {
+  std::vector<Eigen::Vector2d> closed = curve;
+  closed.emplace(closed.begin(), 0, curve.front()[1]);
+  closed.emplace_back(0, curve.back()[1]);
+  return segments_of(meshes::surface_mesh(meshes::revolve(closed, 60)));
+}
+
+TEST(SegmentationIntoSurfaces, FindsAFreeFormOfRevolutionWhole) {
+  for (const std::size_t circles : {12U, 17U, 30U}) {
+    SCOPED_TRACE(circles);
+    std::vector<Eigen::Vector2d> vase;
+    for (std::size_t i = 0; i < circles; ++i) {
+      const double z = 3 * static_cast<double>(i) / static_cast<double>(circles - 1);
+      vase.emplace_back(1 + 0.3 * std::sin(2 * z) + 0.05 * z * z, z);
+    }
+    EXPECT_EQ(number_of(segments_of_turned(vase)), 3U);
+  }
+}
+
+TEST(SegmentationIntoSurfaces, LeavesAFewConesApartThatFollowEachOther) {
+  std::vector<Eigen::Vector2d> barrel = {{1, 0}};
+  for (const double slope : {0.3, 0.1, -0.1, -0.3})  // of four cones, 11 degrees and more from one to the next
+    for (int i = 0; i < 2; ++i) barrel.emplace_back(barrel.back() + Eigen::Vector2d(0.4 * slope, 0.4));
+  EXPECT_EQ(number_of(segments_of_turned(barrel)), 6U);
+}
+
 TEST(SegmentationIntoSurfaces, GivesAsManySegmentsAsAskedFor) {
   const auto mesh = meshes::surface_mesh(shape_of(solids::capsule(solids::even(0.2))));
   for (const std::size_t n : {1u, 2u, 3u}) EXPECT_EQ(number_of(segments_of(mesh, Surface_segmentation(n))), n);

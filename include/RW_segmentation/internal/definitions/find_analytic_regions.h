@@ -7,6 +7,7 @@
 #include <RW_segmentation/internal/long_tasks.h>
 #include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
+#include <RW_segmentation/internal/surfaces/Free_forms_of_revolution.h>
 #include <RW_segmentation/internal/surfaces/Region_borders.h>
 #include <RW_segmentation/internal/surfaces/Surface_growing.h>
 #include <RW_segmentation/internal/surfaces/Surface_proposals.h>
@@ -27,6 +28,7 @@ inline Analytic_regions regions_of_faces(const Dual_mesh& mesh, const Surface_to
   constexpr int most_proposals = 2;  // times: borders that have moved show others
   Analytic_regions regions = Surface_growing(mesh, tolerance).regions(progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
+  if (!tolerance.has_noise()) Free_forms_of_revolution(mesh, tolerance, regions).take_back();
   if (!tolerance.may_have_independent_noise()) return regions;
   const auto settle = [&] { Region_borders(mesh, tolerance, regions).settle(progress); };
   for (int i = 0; i < most_proposals && Surface_proposals(mesh, tolerance, regions).try_about_faces(progress); ++i)
