@@ -167,6 +167,39 @@ solids::Solid drafted_housing(double draft) {
   return std::move(builder).solid();
 }
 
+/// A shaft with so many flats and a stud on it; between the flats its cylinder has steps of 6 degrees or less.
+solids::Solid shaft_with_flats(std::size_t flats) {
+  constexpr double half_flat = solids::half_turn / 6, widest_step = solids::half_turn / 30;
+  constexpr std::size_t steps_of_stud = 60;
+  solids::Builder builder("shaft_with_flats");
+  std::vector<solids::Point> outline;
+  const auto point = [](double angle) { return solids::Point(std::cos(angle), std::sin(angle), 1); };
+  const auto below = [](const solids::Point& p) { return solids::Point(p.x(), p.y(), -1); };
+  const auto side = [&](std::size_t surface, const solids::Point& a, const solids::Point& b) {
+    builder.quadrangle(surface, below(a), below(b), b, a);
+    outline.push_back(a);
+  };
+  const double part = 2 * solids::half_turn / static_cast<double>(flats), arc = part - 2 * half_flat;
+  const auto steps = static_cast<std::size_t>(std::ceil(arc / widest_step));
+  for (std::size_t i = 0; i < flats; ++i) {
+    const double middle = part * static_cast<double>(i);
+    const solids::Point normal(std::cos(middle), std::sin(middle), 0);
+    side(builder.add(solids::plane(point(middle - half_flat), normal)), point(middle - half_flat),
+         point(middle + half_flat));
+    const std::size_t cylinder = builder.add(solids::cylinder({0, 0, 0}, {0, 0, 1}, 1));
+    const auto step = [&](std::size_t j) {
+      return point(middle + half_flat + arc * static_cast<double>(j) / static_cast<double>(steps));
+    };
+    for (std::size_t j = 0; j < steps; ++j)
+      side(cylinder, step(j), j + 1 < steps ? step(j + 1) : point(middle + part - half_flat));
+  }
+  std::vector<solids::Point> bottom;
+  for (const solids::Point& p : outline) bottom.insert(bottom.begin(), below(p));
+  builder.fan(builder.add(solids::plane({0, 0, -1}, {0, 0, -1})), bottom);
+  add_stud(builder, outline, steps_of_stud);
+  return std::move(builder).solid();
+}
+
 /// A drum of few wide steps with a stud of many on it; 3 planes, 2 cylinders.
 solids::Solid stud_on_wide_drum() {
   constexpr std::size_t wide_steps = 24, narrow_steps = 300;
@@ -626,6 +659,10 @@ TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartThatAreSinglePolygons) {
 
 TEST(SegmentationIntoSurfaces, LeavesDraftedSidesApartThatTurnLessThanARoundSurface) {
   for (const double draft : {0.03, 0.06, 0.1}) expect_every_face_found(drafted_housing(draft));
+}
+
+TEST(SegmentationIntoSurfaces, LeavesFlatsOfAShaftApartWhoseCornersLieOnItsCylinder) {
+  for (const std::size_t flats : {1U, 2U, 3U, 4U}) expect_every_face_found(shaft_with_flats(flats));
 }
 
 TEST(SegmentationIntoSurfaces, LeavesAWideArcWholeBesideManyNarrowSteps) {

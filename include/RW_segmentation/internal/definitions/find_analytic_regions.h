@@ -7,10 +7,12 @@
 #include <RW_segmentation/internal/long_tasks.h>
 #include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/Face_refinement.h>
+#include <RW_segmentation/internal/surfaces/Flat_sides.h>
 #include <RW_segmentation/internal/surfaces/Free_forms_of_revolution.h>
 #include <RW_segmentation/internal/surfaces/Region_borders.h>
 #include <RW_segmentation/internal/surfaces/Surface_growing.h>
 #include <RW_segmentation/internal/surfaces/Surface_proposals.h>
+#include <RW_segmentation/internal/surfaces/edge_angles.h>
 #include <RW_segmentation/internal/surfaces/find_analytic_regions.h>
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace RW_segmentation::internal {
@@ -104,10 +107,23 @@ inline double side_of_triangles(const Dual_mesh& mesh, double least, double most
   return std::max(least, 2 * std::sqrt(mesh.total_area() / most));
 }
 
-RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+/// The mesh with walls where flat sides certainly end, such as the flats of a shaft: their corners lie on its cylinder, and in
+/// their middle they have its normal, so that it would grow over them.
+inline Dual_mesh with_walls_at_flat_sides(const Dual_mesh& mesh) {
+  const std::vector<Flat_sides::Crease> creases = creases_of_flat_sides(mesh, edge_angles(mesh));
+  std::vector<char> is_wall;
+  is_wall.reserve(creases.size());
+  for (Dual_mesh::Index e = 0; e < creases.size(); ++e)
+    is_wall.push_back(mesh.is_wall(e) || creases[e] == Flat_sides::Crease::certain);
+  return mesh.with_walls(std::move(is_wall));
+}
+
+RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& given,
+                                                              const Surface_tolerance& tolerance,
                                                               const Progress& progress) {
   constexpr double longest_side = 0.05;     // in parts of the diagonal
   constexpr double most_triangles = 20000;  // solids have 5000 or so
+  const Dual_mesh mesh = tolerance.has_noise() ? given : with_walls_at_flat_sides(given);
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });

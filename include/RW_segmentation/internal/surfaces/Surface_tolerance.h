@@ -4,7 +4,6 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_SURFACE_TOLERANCE_H
 
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/internal/mesh/Mesh_stretch.h>
 #include <RW_segmentation/internal/surfaces/Flat_sides.h>
 #include <RW_segmentation/internal/surfaces/edge_angles.h>
 
@@ -169,11 +168,9 @@ inline std::vector<double> crease_angles(const Dual_mesh& mesh, const Surface_to
   constexpr double right_angle = radians(90);
   std::vector<double> angles = edge_angles(mesh);
   if (tolerance.has_noise()) return angles;
-  for (const Mesh_stretch& component : connected_stretches(mesh.graph())) {
-    const Flat_sides sides(mesh, angles, component);
-    for (Dual_mesh::Index e = component.first_edge; e < component.first_edge + component.edges; ++e)
-      if (sides.meet_at(e)) angles[e] = right_angle;
-  }
+  const std::vector<Flat_sides::Crease> creases = creases_of_flat_sides(mesh, angles);
+  for (Dual_mesh::Index e = 0; e < angles.size(); ++e)
+    if (creases[e] != Flat_sides::Crease::none) angles[e] = right_angle;
   return angles;
 }
 
