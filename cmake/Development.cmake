@@ -20,7 +20,7 @@ endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   # GoogleTest's typed test suites use such macros.
   target_compile_options(RW_segmentation_development INTERFACE -Wno-gnu-zero-variadic-macro-arguments)
-  # It links the tests under sanitizers in a seventh of the time.
+  # LLD links the tests under sanitizers in a seventh of the time that GNU ld takes.
   find_program(LLD ld.lld)
   mark_as_advanced(LLD)
   if(LLD AND NOT APPLE)

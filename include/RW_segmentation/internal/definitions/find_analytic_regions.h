@@ -118,12 +118,11 @@ inline Dual_mesh with_walls_at_flat_sides(const Dual_mesh& mesh) {
   return mesh.with_walls(std::move(is_wall));
 }
 
-RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& given,
-                                                              const Surface_tolerance& tolerance,
+RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                                               const Progress& progress) {
+  if (!tolerance.has_noise()) return regions_of_components(with_walls_at_flat_sides(mesh), tolerance, progress);
   constexpr double longest_side = 0.05;     // in parts of the diagonal
   constexpr double most_triangles = 20000;  // solids have 5000 or so
-  const Dual_mesh mesh = tolerance.has_noise() ? given : with_walls_at_flat_sides(given);
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });

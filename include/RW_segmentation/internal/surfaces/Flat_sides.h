@@ -39,8 +39,8 @@ class Flat_sides {
     constexpr double times_the_width = 1.5;
     // At 2, overlaps of .9895 and .9639; at 3, of .9895 and .9611.
     constexpr double times_the_deflection = 2.5;
-    // None of the 6603 edges beyond it lies within a face of the 146 solids, of 10381 beyond five times 74 do. From 3.5 to
-    // ten times the overlap is the same.
+    // Of the edges of all 146 solids 6603 are beyond it, none of them within a face; beyond five times, 74 of 10381 are. From
+    // 3.5 to ten times the overlap is the same.
     constexpr double times_when_certain = 10;
     std::vector<double> widths, deflections;
     for (Index e = component.first_edge; e < component.first_edge + component.edges; ++e) {
