@@ -222,9 +222,7 @@ class Region_borders {
   /// Fits the surfaces of new regions to them.
   void fit_again(const std::vector<char>& is_new) {
     constexpr std::size_t fewest_vertices = 12;
-    std::vector<std::vector<Index>> faces(regions_.surfaces.size());
-    for (Index f = 0; f < mesh_.number_of_faces(); ++f)
-      if (regions_.region_of_face[f] != none) faces[regions_.region_of_face[f]].push_back(f);
+    const std::vector<std::vector<Index>> faces = regions_.faces();
     Face_patches patches(mesh_);
     for (std::size_t region = 0; region < faces.size(); ++region) {
       if (!is_new[region]) continue;

@@ -53,7 +53,7 @@ class Surface_proposals {
         regions_(regions),
         patches_(mesh, edge_angles(mesh), [&](Index e) { return tolerance.sharp_angle(mesh.graph().faces_of(e)); }),
         signs_(signs_of(mesh, regions)),
-        faces_(regions.surfaces.size()),
+        faces_(regions.faces()),
         node_of_face_(mesh.number_of_faces(), no_node) {
     for (Index e = 0; e < mesh.number_of_edges(); ++e) {
       const auto [f, g] = mesh.graph().faces_of(e);
@@ -61,7 +61,6 @@ class Surface_proposals {
     }
     for (Index f = 0; f < mesh.number_of_faces(); ++f) {
       const std::size_t region = regions.region_of_face[f];
-      if (region != none) faces_[region].push_back(f);
       own_energy_.push_back(region == none ? Face_energy::unexplained
                                            : energy_(regions.surfaces[region], signs_[region], f));
     }
