@@ -104,7 +104,7 @@ class Flat_sides {
   const std::vector<double>& angles_;
   double largest_width_ = std::numeric_limits<double>::infinity();       // of facets of curved surfaces
   double largest_deflection_ = std::numeric_limits<double>::infinity();  // likewise
-  double certain_deflection_ = std::numeric_limits<double>::infinity();  // beyond all of them
+  double certain_deflection_ = std::numeric_limits<double>::infinity();  // of any facet of theirs, however odd
 };
 
 /// By edge, of a mesh without noise, which would turn flat sides as well.

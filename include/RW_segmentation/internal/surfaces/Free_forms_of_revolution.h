@@ -34,19 +34,14 @@ class Free_forms_of_revolution {
 
   /// Keeps references to all.
   Free_forms_of_revolution(const Dual_mesh& mesh, const Surface_tolerance& tolerance, Analytic_regions& regions)
-      : mesh_(mesh),
-        tolerance_(tolerance),
-        regions_(regions),
-        angles_(crease_angles(mesh, tolerance)),
-        faces_(regions.surfaces.size()) {
-    for (Index f = 0; f < mesh.number_of_faces(); ++f)
-      if (regions.region_of_face[f] != none) faces_[regions.region_of_face[f]].push_back(f);
-  }
+      : mesh_(mesh), tolerance_(tolerance), regions_(regions), faces_(regions.faces()) {}
 
   void take_back() {
     for (const Axis& axis : axes()) {
       const std::vector<char> is_strip = strips_about(axis);
-      if (std::count(is_strip.begin(), is_strip.end(), true) >= fewest_strips) take_back(is_strip);
+      if (std::count(is_strip.begin(), is_strip.end(), true) < fewest_strips) continue;
+      if (angles_.empty()) angles_ = crease_angles(mesh_, tolerance_);
+      take_back(is_strip);
     }
   }
 
@@ -106,10 +101,13 @@ class Free_forms_of_revolution {
     std::map<std::pair<std::size_t, std::size_t>, double> areas;
     double whole = 0;
     for (const Index f : faces) {
-      std::set<std::size_t> touched;
-      for (const Index v : mesh_.corners(f)) touched.insert(circle_of(mesh_.point(v), axis, circles));
+      std::pair<std::size_t, std::size_t> first_and_last(most_circles, 0);
+      for (const Index v : mesh_.corners(f)) {
+        const std::size_t circle = circle_of(mesh_.point(v), axis, circles);
+        first_and_last = {std::min(first_and_last.first, circle), std::max(first_and_last.second, circle)};
+      }
       if (circles.size() > most_circles) return most_circles;
-      areas[{*touched.begin(), *touched.rbegin()}] += mesh_.area(f);
+      areas[first_and_last] += mesh_.area(f);
       whole += mesh_.area(f);
     }
     std::vector<double> largest;
@@ -162,7 +160,7 @@ class Free_forms_of_revolution {
   const Dual_mesh& mesh_;
   const Surface_tolerance& tolerance_;
   Analytic_regions& regions_;
-  std::vector<double> angles_;             // of the edges
+  std::vector<double> angles_;             // of the edges, once there are enough strips
   std::vector<std::vector<Index>> faces_;  // of the regions
 };
 
