@@ -133,8 +133,8 @@ solids::Solid with_zero_area_faces(solids::Solid solid) {
 }
 
 /// A horizontal face with a round stud on it, whose side is divided into so many steps.
-void add_stud(solids::Builder& builder, std::vector<solids::Point> outline, std::size_t steps) {
-  constexpr double radius = 0.3, height = 0.5;
+void add_stud(solids::Builder& builder, std::vector<solids::Point> outline, std::size_t steps, double radius = 0.3) {
+  constexpr double height = 0.5;
   const double z = outline.front().z();
   const std::vector<solids::Point> foot =
       solids::points_on(solids::arc({0, 0, z}, {radius, 0, 0}, {0, radius, 0}, 0, 2 * solids::half_turn), steps);
@@ -147,9 +147,9 @@ void add_stud(solids::Builder& builder, std::vector<solids::Point> outline, std:
 
 /// A housing of two drafted halves, which meet in a rectangle, with a stud on it; 11 planes, 1 cylinder.
 /// \param draft of each half, in radians
-solids::Solid drafted_housing(double draft) {
+/// \param steps of the stud's side
+solids::Solid drafted_housing(double draft, std::size_t steps, double radius_of_stud) {
   constexpr double lower = 0.6, upper = 0.4;  // height of either half
-  constexpr std::size_t steps = 60;
   const auto rectangle = [&](double z) -> std::vector<solids::Point> {
     const double in = std::abs(z) * std::tan(draft), x = 1 - in, y = 0.8 - in;
     return {{x, -y, z}, {x, y, z}, {-x, y, z}, {-x, -y, z}};
@@ -163,7 +163,7 @@ solids::Solid drafted_housing(double draft) {
                           &d = rings[half + 1][i];
       builder.quadrangle(builder.add(solids::plane(a, (b - a).cross(d - a).normalized())), a, b, c, d);
     }
-  add_stud(builder, rings[2], steps);
+  add_stud(builder, rings[2], steps, radius_of_stud);
   return std::move(builder).solid();
 }
 
@@ -658,7 +658,12 @@ TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartThatAreSinglePolygons) {
 }
 
 TEST(SegmentationIntoSurfaces, LeavesDraftedSidesApartThatTurnLessThanARoundSurface) {
-  for (const double draft : {0.03, 0.06, 0.1}) expect_every_face_found(drafted_housing(draft));
+  for (const double draft : {0.03, 0.06, 0.1}) expect_every_face_found(drafted_housing(draft, 60, 0.3));
+}
+
+TEST(SegmentationIntoSurfaces, LeavesDraftedSidesApartWhereManyEdgesAreTheirs) {
+  for (const double draft : {0.05, 0.1})
+    for (const std::size_t steps : {28U, 36U}) expect_every_face_found(drafted_housing(draft, steps, 0.1));
 }
 
 TEST(SegmentationIntoSurfaces, LeavesFlatsOfAShaftApartWhoseCornersLieOnItsCylinder) {
