@@ -25,8 +25,8 @@ RW_SEGMENTATION_INLINE std::vector<Analytic_surface> surfaces_of_segments(
     double noise) {
   const Dual_mesh shape = with_stored_normals(mesh);
   const Tolerated_mesh tolerated(shape, noise, segment_of_face);
-  std::vector<Analytic_surface> surfaces =
-      surfaces_in_unit_box(tolerated.mesh(), segment_of_face, number_of_segments, tolerated.tolerance);
+  std::vector<Analytic_surface> surfaces = surfaces_in_unit_box(
+      tolerated.mesh(), tolerated.facets.by_whole(segment_of_face), number_of_segments, tolerated.tolerance);
   std::vector<Dual_mesh::Index> vertex(number_of_segments, 0);
   for (Dual_mesh::Index f = 0; f < shape.number_of_faces(); ++f) vertex[segment_of_face[f]] = shape.corners(f)[0];
   for (std::size_t s = 0; s < surfaces.size(); ++s)

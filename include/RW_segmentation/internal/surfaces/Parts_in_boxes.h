@@ -6,6 +6,7 @@
 #include <RW_segmentation/Analytic_surface.h>
 #include <RW_segmentation/Dual_mesh.h>
 #include <RW_segmentation/internal/mesh/Face_geometry.h>
+#include <RW_segmentation/internal/surfaces/Cut_facets.h>
 #include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
 #include <RW_segmentation/internal/surfaces/out_of_box.h>
 #include <RW_segmentation/internal/surfaces/rounding_step.h>
@@ -107,21 +108,38 @@ class Parts_in_boxes {
   std::vector<Unit_box> boxes_;  // by the lowest vertex of a part; likewise
 };
 
-/// A mesh with its tolerance: its parts in boxes of their own if they are clean. Noise is that of the whole.
+/// The mesh with walls between its segments.
+inline Dual_mesh with_walls_between(const Dual_mesh& mesh, const std::vector<std::size_t>& segment_of_face) {
+  std::vector<char> is_wall;
+  is_wall.reserve(mesh.number_of_edges());
+  for (Dual_mesh::Index e = 0; e < mesh.number_of_edges(); ++e) {
+    const auto& [f, g] = mesh.graph().faces_of(e);
+    is_wall.push_back(segment_of_face[f] != segment_of_face[g]);
+  }
+  return mesh.with_walls(std::move(is_wall));
+}
+
+/// A mesh with its tolerance: if it is clean, its parts in boxes of their own, and facets that were cut whole. Noise is that of
+/// all its faces.
 struct Tolerated_mesh {
   Parts_in_boxes parts;
-  Surface_tolerance tolerance;  ///< of the mesh of the parts
+  Cut_facets facets;            ///< of the mesh of the parts
+  Surface_tolerance tolerance;  ///< of the mesh of the facets
 
   /// \param noise see `surface_tolerance()`
-  /// \param segment_of_face each segment is kept in one box; empty if there are none
+  /// \param segment_of_face each segment is kept in one box, and facets end where it does; empty if there are none
   Tolerated_mesh(const Dual_mesh& whole, double noise, const std::vector<std::size_t>& segment_of_face = {})
-      : parts(whole, segment_of_face), tolerance(surface_tolerance(parts.mesh(), noise)) {
-    if (!parts.has_small_parts() || !tolerance.has_noise()) return;
+      : parts(whole, segment_of_face),
+        facets(segment_of_face.empty() ? parts.mesh() : with_walls_between(parts.mesh(), segment_of_face),
+               Surface_tolerance::cad_exactness),
+        tolerance(surface_tolerance(facets.mesh(), noise)) {
+    if (!tolerance.has_noise() || (!parts.has_small_parts() && !facets.are_any())) return;
     parts = Parts_in_boxes(whole);
+    facets = Cut_facets(whole);
     tolerance = surface_tolerance(whole, noise);
   }
 
-  const Dual_mesh& mesh() const { return parts.mesh(); }
+  const Dual_mesh& mesh() const { return facets.mesh(); }
 };
 
 }  // namespace RW_segmentation::internal
