@@ -4,7 +4,7 @@
 #define RW_SEGMENTATION_INTERNAL_SURFACES_CUT_FACETS_H
 
 #include <RW_segmentation/Dual_mesh.h>
-#include <RW_segmentation/internal/surfaces/Surface_tolerance.h>
+#include <RW_segmentation/internal/surfaces/edge_angles.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -245,25 +245,32 @@ class Cut_facets {
     return corners;
   }
 
-  /// The vertices that a piece shares with those that turn against it and are about as wide, as facets of one surface are.
+  /// The vertices that a piece shares with facets beside it.
   std::vector<Index> shared_with_facets_beside(Index number, const Piece& piece) const {
-    constexpr double times_as_wide = 2;  // at 1.3, 9 and 900; at 4, 110 and 956
-    // Chords are farther off the surface, or their vertices count as being on it. At 1, 125 and 1416, and overlap .9687 in
-    // place of .9703 on 118 of the CAD solids (`benchmark_engineering --suffix _t`).
-    constexpr double deviations = 3;  // times the exactness
     std::vector<Index> shared;
     for (auto side = sides_.lower_bound({number, 0}); side != sides_.end() && side->first.first == number; ++side) {
       const Index next = side->first.second;
-      const double length = (mesh_.point(side->second[1]) - mesh_.point(side->second[0])).norm();
-      const double width = width_of(number, length);
-      const double angle = std::acos(std::min(1.0, mesh_.normal(number).dot(mesh_.normal(next))));
-      if (!(width <= times_as_wide * width_of(next, length)) || width * angle / 8 <= deviations * exactness_) continue;
+      if (!may_be_of_one_surface(number, next, side->second)) continue;
       const Piece* beside = find_piece(next);
       for (const Index v : beside ? beside->vertices : vertices_of({next}))
         if (std::binary_search(piece.vertices.begin(), piece.vertices.end(), v)) shared.push_back(v);
     }
     std::sort(shared.begin(), shared.end());
     return shared;
+  }
+
+  /// Whether the piece beside another one is about as wide across their side, as facets of one surface are, and chords of the
+  /// other one would be off that surface.
+  bool may_be_of_one_surface(Index piece, Index beside, const Edge& side) const {
+    constexpr double times_as_wide = 2;  // at 1.3, 9 and 900; at 4, 110 and 956
+    // Vertices on chords that are less off count as being on the surface. At 1, 125 and 1416, and overlap .9687 in place of
+    // .9703 on 118 of the CAD solids (`benchmark_engineering --suffix _t`).
+    constexpr double deviations = 3;  // times the exactness
+    const double length = (mesh_.point(side[1]) - mesh_.point(side[0])).norm();
+    if (!(length > 0)) return false;
+    const double width = width_of(piece, length);
+    const double angle = std::acos(std::min(1.0, mesh_.normal(piece).dot(mesh_.normal(beside))));
+    return width <= times_as_wide * width_of(beside, length) && width * angle / 8 > deviations * exactness_;
   }
 
   /// The width of a piece across a side of some length.
