@@ -188,6 +188,11 @@ std::vector<Eigen::Vector3d> own_normals(const Dual_mesh& mesh);
 /// A mesh with the normals of its shape stored, for work that asks for each of them many times.
 Dual_mesh with_stored_normals(const Dual_mesh& mesh);
 
+/// A mesh in the unit box of another one.
+/// \param arrays what it is made from, its points in that box
+/// \param face by face, one of the other mesh: that one's `shape_normal()` is its own
+Dual_mesh in_box_of(const Dual_mesh& other, Dual_mesh::Arrays arrays, const std::vector<Dual_mesh::Index>& face);
+
 /// Divides vectors by their lengths; zero vectors stay zero.
 void normalize(std::vector<Eigen::Vector3d>& vectors);
 

@@ -107,6 +107,18 @@ RW_SEGMENTATION_INLINE std::vector<Eigen::Vector3d> own_normals(const Dual_mesh&
   return normals;
 }
 
+RW_SEGMENTATION_INLINE Dual_mesh in_box_of(const Dual_mesh& other, Dual_mesh::Arrays arrays,
+                                           const std::vector<Dual_mesh::Index>& face) {
+  Unit_box box;
+  box.unit = other.unit();
+  box.origin = other.origin();
+  box.rounding = other.rounding();
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(face.size());
+  for (const Dual_mesh::Index f : face) normals.push_back(other.shape_normal(f));
+  return Dual_mesh(std::move(arrays), &box).with_shape_normals(std::move(normals));
+}
+
 RW_SEGMENTATION_INLINE Dual_mesh with_stored_normals(const Dual_mesh& mesh) {
   return mesh.has_shape_normals() ? mesh : mesh.with_shape_normals(own_normals(mesh));
 }

@@ -16,7 +16,6 @@
 #include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace RW_segmentation::internal {
 
@@ -62,8 +61,8 @@ RW_SEGMENTATION_INLINE Segments_on_surfaces segment_into_surfaces(const Dual_mes
   clock.note("surfaces");
   Segments_on_surfaces result =
       segments_of_regions(shape, tolerance, regions.region_of_face, progress.part(0.8, 1), clock);
-  result.fragment_of_face = tolerated.facets.by_part(std::move(result.fragment_of_face));
-  result.is_given = tolerated.facets.by_part(std::move(result.is_given));
+  result.fragment_of_face = tolerated.facets.by_part(result.fragment_of_face);
+  result.is_given = tolerated.facets.by_part(result.is_given);
   report.components = Components(shape.graph(), [&](Dual_mesh::Index e) { return !shape.is_wall(e); }).count;
   report.noise = tolerance.noise;
   report.seeds = regions.surfaces.size();

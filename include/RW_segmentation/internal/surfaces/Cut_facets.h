@@ -59,25 +59,25 @@ class Cut_facets {
 
   /// Values by face of `mesh()` as values by face of the mesh that there was.
   template <class Value>
-  std::vector<Value> by_part(std::vector<Value> values) const {
-    if (!are_any()) return values;
-    std::vector<Value> of_parts;
-    of_parts.reserve(whole_.size());
-    for (const Index f : whole_) of_parts.push_back(values[f]);
-    return of_parts;
+  std::vector<Value> by_part(const std::vector<Value>& values) const {
+    return are_any() ? picked(values, whole_) : values;
   }
 
   /// Values by face of the mesh that there was as values by face of `mesh()`: those of the largest parts.
   template <class Value>
-  std::vector<Value> by_whole(std::vector<Value> values) const {
-    if (!are_any()) return values;
-    std::vector<Value> of_wholes;
-    of_wholes.reserve(largest_part_.size());
-    for (const Index f : largest_part_) of_wholes.push_back(values[f]);
-    return of_wholes;
+  std::vector<Value> by_whole(const std::vector<Value>& values) const {
+    return are_any() ? picked(values, largest_part_) : values;
   }
 
  private:
+  template <class Value>
+  static std::vector<Value> picked(const std::vector<Value>& values, const std::vector<Index>& places) {
+    std::vector<Value> result;
+    result.reserve(places.size());
+    for (const Index place : places) result.push_back(values[place]);
+    return result;
+  }
+
   using Edge = std::array<Index, 2>;  // its ends
 
   /// Connected faces in one plane, two or more.
@@ -310,14 +310,7 @@ class Cut_facets {
     arrays.points = mesh_.points();
     add_faces(arrays);
     add_edges(arrays);
-    Unit_box box;
-    box.unit = mesh_.unit();
-    box.origin = mesh_.origin();
-    box.rounding = mesh_.rounding();
-    std::vector<Eigen::Vector3d> normals;
-    normals.reserve(largest_part_.size());
-    for (const Index f : largest_part_) normals.push_back(mesh_.shape_normal(f));
-    mesh_ = Dual_mesh(std::move(arrays), &box).with_shape_normals(std::move(normals));
+    mesh_ = in_box_of(mesh_, std::move(arrays), largest_part_);
   }
 
   void add_faces(Dual_mesh::Arrays& arrays) {

@@ -97,14 +97,7 @@ class Face_refinement {
       arrays.corners.end_face();
     }
     add_edges(mesh, arrays);
-    Unit_box box;
-    box.unit = mesh.unit();
-    box.origin = mesh.origin();
-    box.rounding = mesh.rounding();
-    std::vector<Eigen::Vector3d> normals;
-    normals.reserve(face_.size());
-    for (const Index f : face_) normals.push_back(mesh.shape_normal(f));
-    return Dual_mesh(std::move(arrays), &box).with_shape_normals(std::move(normals));
+    return in_box_of(mesh, std::move(arrays), face_);
   }
 
   /// Triangles of two faces that have a wall between them have one, too.
