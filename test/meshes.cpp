@@ -118,6 +118,22 @@ Shape tube(double height, std::size_t around, std::size_t along) {
   return revolve(curve, around);
 }
 
+Shape prism(std::size_t sides) {
+  Shape shape;
+  std::vector<std::size_t> bottom, top;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const double angle = 2 * pi * static_cast<double>(i) / static_cast<double>(sides);
+    for (const double z : {0., 2.}) shape.points.emplace_back(std::cos(angle), std::sin(angle), z);
+    const std::size_t next = (i + 1) % sides;
+    shape.faces.push_back({2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
+    bottom.insert(bottom.begin(), 2 * i);
+    top.push_back(2 * i + 1);
+  }
+  shape.faces.push_back(bottom);
+  shape.faces.push_back(top);
+  return shape;
+}
+
 Shape torus(double radius, double tube_radius, std::size_t around, std::size_t across) {
   std::vector<Eigen::Vector2d> curve;
   for (std::size_t i = 0; i < across; ++i) {
@@ -175,6 +191,30 @@ Shape sphere(std::size_t levels) {
 
 Shape transformed(Shape shape, const Eigen::Affine3d& map) {
   for (Eigen::Vector3d& p : shape.points) p = map * p;
+  return shape;
+}
+
+Shape with_pits(Shape shape, std::size_t first_faces, std::size_t step) {
+  constexpr double depth = 0.05;
+  for (std::size_t f = 0; f < first_faces; f += step) {
+    const std::vector<std::size_t> outline = shape.faces[f];
+    const auto point = [&](std::size_t corner) { return shape.points[outline[corner % outline.size()]]; };
+    const std::size_t corners = outline.size(), first = shape.points.size();
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < corners; ++i) middle += point(i) / static_cast<double>(corners);
+    const Eigen::Vector3d inward = depth * (point(2) - point(1)).cross(point(1) - point(0)).normalized();
+    for (const Eigen::Vector3d& down : {Eigen::Vector3d(0, 0, 0), inward})
+      for (std::size_t i = 0; i < corners; ++i) shape.points.push_back((point(i) + middle) / 2 + down);
+    std::vector<std::size_t> floor;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const std::size_t next = (i + 1) % corners, rim = first + i, next_rim = first + next;
+      shape.faces.push_back({outline[i], outline[next], next_rim});
+      shape.faces.push_back({outline[i], next_rim, rim});
+      shape.faces.push_back({rim, next_rim, next_rim + corners, rim + corners});
+      floor.push_back(rim + corners);
+    }
+    shape.faces[f] = floor;
+  }
   return shape;
 }
 

@@ -77,6 +77,10 @@ Shape revolve(const std::vector<Eigen::Vector2d>& curve, std::size_t around, boo
 /// An open tube of radius 1 and height `height` along the z-axis: `around` by `along` squares, each of two triangles.
 Shape tube(double height, std::size_t around, std::size_t along);
 
+/// A prism of height 2 between two regular polygons, whose corners are at a distance of 1 from the z-axis. The sides come
+/// first.
+Shape prism(std::size_t sides);
+
 /// A torus about the z-axis: `around` by `across` squares, each of two triangles.
 Shape torus(double radius, double tube_radius, std::size_t around, std::size_t across);
 
@@ -93,6 +97,9 @@ Shape sphere(std::size_t levels);
 // ---- Shapes from shapes ----
 
 Shape transformed(Shape shape, const Eigen::Affine3d& map);
+
+/// Every so many of the first faces with a pit in it, whose floor is half as long and wide. The triangles round it remain.
+Shape with_pits(Shape shape, std::size_t first_faces, std::size_t step);
 
 Shape scaled(Shape shape, double factor);
 

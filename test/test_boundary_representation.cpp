@@ -19,6 +19,8 @@
 #include <RW_segmentation/internal/brep/Face_integrals.h>
 #include <RW_segmentation/internal/brep/Shape_distances.h>
 #include <RW_segmentation/internal/brep/kernel_errors.h>
+#include <RW_segmentation/segment_surfaces.h>
+#include <RW_segmentation/segmentation_into_surfaces.h>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -349,8 +351,27 @@ TEST(Boundary_representation, HasASolidForEachComponentAndVoidsInThem) {
   expect_relative(result.report.volume, 6 - 6 * 0.027 + 6 * 0.125, 1e-12);
 }
 
+TEST(Boundary_representation, HasTheCylinderWhoseFacetsWereCut) {
+  const meshes::Shape cut = meshes::with_pits(meshes::prism(24), 24, 2);
+  meshes::Shape triangles{cut.points, {}};
+  for (const auto& face : cut.faces)
+    for (std::size_t i = 2; i < face.size(); ++i) triangles.faces.push_back({face[0], face[i - 1], face[i]});
+  const auto mesh = meshes::surface_mesh(triangles);
+  std::vector<std::size_t> segment(triangles.faces.size());
+  const auto ids = boost::make_iterator_property_map(segment.begin(), get(boost::face_index, mesh));
+  const std::size_t segments = segmentation_into_surfaces(mesh, ids);
+  EXPECT_EQ(segments, 3U + 12U * 5U);  // and the planes of twelve pits
+  const auto result = boundary_representation(mesh, ids, segment_surfaces(mesh, ids, segments));
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.number_of_triangles(), 0U);
+  EXPECT_EQ(result.number_of_faces(Surface_type::plane), segments - 1);
+  EXPECT_GE(result.number_of_faces(Surface_type::cylinder), 1U);
+}
+
 TEST(Boundary_representation, OfASmallSolidBesideALargeOneIsThatOfTheSolidAlone) {
-  for (const solids::Solid& solid : solids::all(solids::by_kernel())) {
+  const solids::Meshing meshing = solids::by_kernel();
+  for (const solids::Solid& solid : {solids::capsule(meshing), solids::flange(meshing), solids::pipe_elbow(meshing),
+                                     solids::cone_on_cylinder(meshing)}) {
     SCOPED_TRACE(solid.name);
     const double size = 300 * solid.diagonal();
     const Boundary_representation alone = represented(solid);

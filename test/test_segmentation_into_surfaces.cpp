@@ -640,31 +640,14 @@ TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartWhoseCornersLieOnARoundSurfac
           << sides << " sides, radius at the top " << top_radius;
 }
 
-/// A prism of regular polygons.
-static meshes::Shape prism(std::size_t sides) {
-  meshes::Shape shape;
-  std::vector<std::size_t> bottom, top;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const double angle = 2 * solids::half_turn * double(i) / double(sides);
-    for (const double z : {0., 2.}) shape.points.emplace_back(std::cos(angle), std::sin(angle), z);
-    const std::size_t next = (i + 1) % sides;
-    shape.faces.push_back({2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
-    bottom.insert(bottom.begin(), 2 * i);
-    top.push_back(2 * i + 1);
-  }
-  shape.faces.push_back(bottom);
-  shape.faces.push_back(top);
-  return shape;
-}
-
 TEST(SegmentationIntoSurfaces, LeavesFlatSidesApartThatAreSinglePolygons) {
   for (const std::size_t sides : {5u, 6u, 7u, 8u})
-    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(prism(sides)))), sides + 2) << sides << " sides";
+    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(meshes::prism(sides)))), sides + 2) << sides << " sides";
 }
 
 TEST(SegmentationIntoSurfaces, TakesAPrismOfManySidesForACylinderBetweenTwoPolygons) {
   for (const std::size_t sides : {24u, 36u, 48u, 100u})
-    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(prism(sides)))), 3u) << sides << " sides";
+    EXPECT_EQ(number_of(segments_of(meshes::surface_mesh(meshes::prism(sides)))), 3u) << sides << " sides";
 }
 
 TEST(SegmentationIntoSurfaces, LeavesDraftedSidesApartThatTurnLessThanARoundSurface) {
@@ -684,31 +667,6 @@ TEST(SegmentationIntoSurfaces, LeavesAWideArcWholeBesideManyNarrowSteps) {
   expect_every_face_found(stud_on_wide_drum());
 }
 
-/// Every so many of the first faces with a pit in it, whose floor is half as long and wide. The triangles round it remain.
-static meshes::Shape with_pits(meshes::Shape shape, std::size_t first_faces, std::size_t step) {
-  constexpr double depth = 0.05;
-  for (std::size_t f = 0; f < first_faces; f += step) {
-    const std::vector<std::size_t> outline = shape.faces[f];
-    const auto point = [&](std::size_t corner) { return shape.points[outline[corner % outline.size()]]; };
-    const std::size_t corners = outline.size(), first = shape.points.size();
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < corners; ++i) middle += point(i) / double(corners);
-    const Eigen::Vector3d inward = depth * (point(2) - point(1)).cross(point(1) - point(0)).normalized();
-    for (const Eigen::Vector3d& down : {Eigen::Vector3d(0, 0, 0), inward})
-      for (std::size_t i = 0; i < corners; ++i) shape.points.push_back((point(i) + middle) / 2 + down);
-    std::vector<std::size_t> floor;
-    for (std::size_t i = 0; i < corners; ++i) {
-      const std::size_t next = (i + 1) % corners, rim = first + i, next_rim = first + next;
-      shape.faces.push_back({outline[i], outline[next], next_rim});
-      shape.faces.push_back({outline[i], next_rim, rim});
-      shape.faces.push_back({rim, next_rim, next_rim + corners, rim + corners});
-      floor.push_back(rim + corners);
-    }
-    shape.faces[f] = floor;
-  }
-  return shape;
-}
-
 /// Also that the last triangle beside a pit is of a segment on a surface of that type and radius.
 static void expect_round(const meshes::Shape& shape, std::size_t segments, Surface_type type, double radius) {
   const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
@@ -725,21 +683,30 @@ TEST(SegmentationIntoSurfaces, FindsRoundSurfacesWhoseFacetsAreCut) {
     SCOPED_TRACE(step);
     for (const std::size_t sides : {24U, 48U}) {
       const std::size_t pits = (sides + step - 1) / step;  // of five planes each
-      expect_round(with_pits(prism(sides), sides, step), 3 + 5 * pits, Surface_type::cylinder, 1);
+      expect_round(meshes::with_pits(meshes::prism(sides), sides, step), 3 + 5 * pits, Surface_type::cylinder, 1);
     }
     const meshes::Shape ball = meshes::sphere(2);
     const std::size_t pits = (ball.faces.size() + step - 1) / step;  // of four
-    expect_round(with_pits(ball, ball.faces.size(), step), 1 + 4 * pits, Surface_type::sphere, 1);
+    expect_round(meshes::with_pits(ball, ball.faces.size(), step), 1 + 4 * pits, Surface_type::sphere, 1);
   }
+}
+
+static bool has_cut_facets(const meshes::Shape& shape) {
+  const meshes::Surface_mesh mesh = meshes::surface_mesh(shape);
+  return internal::Cut_facets(Dual_mesh_of(mesh), internal::Surface_tolerance::cad_exactness).are_any();
 }
 
 TEST(Cut_facets, AreNotSeenInMeshesOfMeshersAndKernels) {
   for (const solids::Meshing& meshing : {solids::even(0.1), solids::even(0.3), solids::by_kernel()})
-    for (const solids::Solid& solid : solids::all(meshing)) {
-      const meshes::Surface_mesh mesh = meshes::surface_mesh(shape_of(solid));
-      EXPECT_FALSE(internal::Cut_facets(Dual_mesh_of(mesh), internal::Surface_tolerance::cad_exactness).are_any())
-          << solid.name;
-    }
+    for (const solids::Solid& solid : solids::all(meshing)) EXPECT_FALSE(has_cut_facets(shape_of(solid))) << solid.name;
+}
+
+TEST(Cut_facets, AreNotThoseThatAMesherDividesWithinTheirPlanes) {
+  for (const meshes::Shape& facets : {meshes::sphere(2), meshes::revolve({{0, 0}, {1, 0}, {1, 2}, {0, 2}}, 24)}) {
+    const meshes::Shape divided = meshes::subdivided(facets);
+    EXPECT_FALSE(has_cut_facets(divided));
+    EXPECT_FALSE(has_cut_facets(meshes::subdivided(divided)));
+  }
 }
 
 /// The segments of what a curve sweeps out between two flat ends.

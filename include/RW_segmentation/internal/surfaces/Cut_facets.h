@@ -22,62 +22,42 @@
 
 namespace RW_segmentation::internal {
 
-/// A mesh with the flat facets of its round surfaces as they were before others cut them.
-///
-/// Modellers that compute with polygons, such as OpenSCAD, cut the facets of a cylinder or ball and not the cylinder or ball
-/// itself: the vertices of a cut lie on chords. A facet that was cut becomes one polygon again, whose corners are those of its
-/// convex hull that it shares with facets beside it. Faces of other kinds stay what they are.
+/// From end to end of two edges on one line, in the direction of the first.
+inline std::array<Dual_mesh::Index, 2> joined_edge(const Dual_mesh& mesh, const std::array<Dual_mesh::Index, 2>& a,
+                                                   const std::array<Dual_mesh::Index, 2>& b) {
+  using Index = Dual_mesh::Index;
+  const Eigen::Vector3d along = mesh.point(a[1]) - mesh.point(a[0]);
+  const auto is_before = [&](Index v, Index w) { return along.dot(mesh.point(w) - mesh.point(v)) > 0; };
+  const auto [first, last] = std::minmax({a[0], a[1], b[0], b[1]}, is_before);
+  return {first, last};
+}
+
+/// Which flat facets of round surfaces others have cut, and the corners that these facets had.
 ///
 /// Meshes of kernels and of meshers have hardly any such facet: 438 meshes of 146 CAD solids, of 6.7 million faces, 54. What
 /// comments tell of other values of a number is how many these have, and how many twenty made solids (cylinders and balls of 24
-/// to 100 sides, cut by others), which have 912. It takes .8 microseconds a face.
-class Cut_facets {
+/// to 100 sides, cut by others), which have 1016.
+class Cut_facet_search {
  public:
   using Index = Dual_mesh::Index;
 
-  /// The mesh as it is.
-  explicit Cut_facets(const Dual_mesh& mesh) : mesh_(mesh) {}
-
   /// \param exactness that vertices are in one plane to, a length
   /// Complexity: n log n.
-  Cut_facets(const Dual_mesh& mesh, double exactness) : Cut_facets(mesh) {
-    exactness_ = exactness;
+  Cut_facet_search(const Dual_mesh& mesh, double exactness) : mesh_(mesh), exactness_(exactness) {
     find_pieces();
     find_sides();
-    bool are_any = false;
-    for (auto& [number, piece] : pieces_) {
-      piece.corners = corners_before_cuts(number, piece);
-      are_any |= !piece.corners.empty();
+    for (const auto& [number, piece] : pieces_) {
+      std::vector<Index> corners = corners_before_cuts(number, piece);
+      if (!corners.empty()) corners_.emplace(number, std::move(corners));
     }
-    if (are_any) make_mesh();
   }
 
-  /// Whether there is such a facet. Without one the mesh stays what it is.
-  bool are_any() const { return !whole_.empty(); }
-  /// The mesh with these facets whole, in the same unit box.
-  const Dual_mesh& mesh() const { return mesh_; }
-
-  /// Values by face of `mesh()` as values by face of the mesh that there was.
-  template <class Value>
-  std::vector<Value> by_part(const std::vector<Value>& values) const {
-    return are_any() ? picked(values, whole_) : values;
-  }
-
-  /// Values by face of the mesh that there was as values by face of `mesh()`: those of the largest parts.
-  template <class Value>
-  std::vector<Value> by_whole(const std::vector<Value>& values) const {
-    return are_any() ? picked(values, largest_part_) : values;
-  }
+  /// The largest face of the plane of each face.
+  const std::vector<Index>& largest_in_plane() const { return piece_of_face_; }
+  /// The corners of each facet that was cut, by its largest face.
+  const std::map<Index, std::vector<Index>>& corners() const { return corners_; }
 
  private:
-  template <class Value>
-  static std::vector<Value> picked(const std::vector<Value>& values, const std::vector<Index>& places) {
-    std::vector<Value> result;
-    result.reserve(places.size());
-    for (const Index place : places) result.push_back(values[place]);
-    return result;
-  }
-
   using Edge = std::array<Index, 2>;  // its ends
 
   /// Connected faces in one plane, two or more.
@@ -85,7 +65,6 @@ class Cut_facets {
     std::vector<Index> vertices;  // ascending
     std::vector<Index> hull;      // corners of the convex hull in the plane, counterclockwise
     double hull_area = 0;
-    std::vector<Index> corners;  // those that it had if it was cut, otherwise empty
   };
 
   /// Faces turn less within a plane.
@@ -100,7 +79,6 @@ class Cut_facets {
     std::iota(order.begin(), order.end(), Index(0));
     std::stable_sort(order.begin(), order.end(), [&](Index f, Index g) { return mesh_.area(f) > mesh_.area(g); });
     piece_of_face_.assign(order.size(), none);
-    pieces_at_vertex_.assign(mesh_.number_of_vertices(), 0);
     for (const Index seed : order) {
       if (piece_of_face_[seed] != none) continue;
       std::vector<Index> faces = {seed};
@@ -111,9 +89,7 @@ class Cut_facets {
             piece_of_face_[f] = seed;
             faces.push_back(f);
           }
-      const std::vector<Index> vertices = vertices_of(faces);
-      for (const Index v : vertices) ++pieces_at_vertex_[v];
-      if (faces.size() > 1) pieces_.emplace(seed, piece_of(seed, vertices));
+      if (faces.size() > 1) pieces_.emplace(seed, piece_of(seed, vertices_of(faces)));
     }
   }
 
@@ -128,7 +104,7 @@ class Cut_facets {
 
   /// Whether a face is so narrow that rounding may turn it anywhere.
   bool is_sliver(Index face) const {
-    constexpr double heights = 10;  // times the exactness; at 3, 54 and 936; at 30, 57 and 896
+    constexpr double heights = 10;  // times the exactness; at 3, 54 and 1016; at 30, 57 and 1016
     double longest = 0;
     for (const Index v : mesh_.corners(face))
       for (const Index w : mesh_.corners(face)) longest = std::max(longest, (mesh_.point(v) - mesh_.point(w)).norm());
@@ -196,7 +172,7 @@ class Cut_facets {
 
   /// Whether a piece has vertices that its hull has not, and as few corners as facets have.
   bool may_be_cut(Index number) const {
-    constexpr std::size_t most_corners = 16;  // four, and some of the cut; at 8, 53 and 912; at 64 as many
+    constexpr std::size_t most_corners = 16;  // four, and some of the cut; at 8, 53 and 1016; at 64 as many
     const Piece* piece = find_piece(number);
     return piece && piece->hull.size() >= 3 && piece->hull.size() <= most_corners &&
            piece->hull.size() < piece->vertices.size();
@@ -222,15 +198,7 @@ class Cut_facets {
 
   void add_side(Index piece, Index beside, const Edge& edge) {
     const auto [side, is_new] = sides_.insert({{piece, beside}, edge});
-    if (!is_new) side->second = joined(side->second, edge);
-  }
-
-  /// From end to end of two edges on one line, in the direction of the first.
-  Edge joined(const Edge& a, const Edge& b) const {
-    const Eigen::Vector3d along = mesh_.point(a[1]) - mesh_.point(a[0]);
-    const auto is_before = [&](Index v, Index w) { return along.dot(mesh_.point(w) - mesh_.point(v)) > 0; };
-    const auto [first, last] = std::minmax({a[0], a[1], b[0], b[1]}, is_before);
-    return {first, last};
+    if (!is_new) side->second = joined_edge(mesh_, side->second, edge);
   }
 
   /// Nothing if a piece is no facet of a round surface, or was not cut.
@@ -262,8 +230,8 @@ class Cut_facets {
   /// Whether the piece beside another one is about as wide across their side, as facets of one surface are, and chords of the
   /// other one would be off that surface.
   bool may_be_of_one_surface(Index piece, Index beside, const Edge& side) const {
-    constexpr double times_as_wide = 2;  // at 1.3, 9 and 900; at 4, 110 and 956
-    // Vertices on chords that are less off count as being on the surface. At 1, 125 and 1416, and overlap .9687 in place of
+    constexpr double times_as_wide = 2;  // at 1.3, 9 and 1004; at 4, 114 and 1060
+    // Vertices on chords that are less off count as being on the surface. At 1, 126 and 1520, and overlap .9687 in place of
     // .9703 on 118 of the CAD solids (`benchmark_engineering --suffix _t`).
     constexpr double deviations = 3;  // times the exactness
     const double length = (mesh_.point(side[1]) - mesh_.point(side[0])).norm();
@@ -280,16 +248,15 @@ class Cut_facets {
     return (corners == 3 ? 2 : 1) * (piece ? piece->hull_area : mesh_.area(number)) / length;
   }
 
-  /// Whether a piece has vertices within its hull or on chords, and none that are a mesher's: those are where it ends smoothly,
-  /// or on a side with one other piece.
+  /// Whether a piece has vertices within its hull or on chords, and none of these where it ends smoothly, which are a mesher's:
+  /// with them, 31558 and 1028.
   /// \param shared with facets beside the piece, ascending
   bool is_cut(const Piece& piece, const std::vector<Index>& shared) const {
     bool has_cuts = false;
     for (const Index v : piece.vertices) {
       if (std::find(piece.hull.begin(), piece.hull.end(), v) != piece.hull.end()) continue;
-      const bool is_on_side = is_on_hull(piece, v);
-      if (!is_at_sharp_edge_[v] || (pieces_at_vertex_[v] == 2 && is_on_side)) return false;
-      has_cuts |= !is_on_side || std::binary_search(shared.begin(), shared.end(), v);
+      if (!is_at_sharp_edge_[v]) return false;
+      has_cuts |= !is_on_hull(piece, v) || std::binary_search(shared.begin(), shared.end(), v);
     }
     return has_cuts;
   }
@@ -303,18 +270,70 @@ class Cut_facets {
     return false;
   }
 
-  // ---- The mesh with whole facets ----
+  const Dual_mesh& mesh_;
+  double exactness_;
+  std::vector<Index> piece_of_face_;
+  std::vector<char> is_at_sharp_edge_;             // by vertex: of a piece that may have been cut
+  std::map<Index, Piece> pieces_;                  // by number
+  std::map<std::pair<Index, Index>, Edge> sides_;  // by the numbers of two pieces
+  std::map<Index, std::vector<Index>> corners_;    // by number
+};
 
-  void make_mesh() {
+/// A mesh with the flat facets of its round surfaces as they were before others cut them.
+///
+/// Modellers that compute with polygons, such as OpenSCAD, cut the facets of a cylinder or ball and not the cylinder or ball
+/// itself: the vertices of a cut lie on chords. A facet that was cut becomes one polygon again, whose corners are those of its
+/// convex hull that it shares with facets beside it. Faces of other kinds stay what they are. It takes .8 microseconds a face.
+class Cut_facets {
+ public:
+  using Index = Dual_mesh::Index;
+
+  /// The mesh as it is.
+  explicit Cut_facets(const Dual_mesh& mesh) : mesh_(mesh) {}
+
+  /// \param exactness that vertices are in one plane to, a length
+  /// Complexity: n log n.
+  Cut_facets(const Dual_mesh& mesh, double exactness) : Cut_facets(mesh) {
+    const Cut_facet_search search(mesh, exactness);
+    if (!search.corners().empty()) make_whole(search);
+  }
+
+  /// Whether there is such a facet. Without one the mesh stays what it is.
+  bool are_any() const { return !whole_.empty(); }
+  /// The mesh with these facets whole, in the same unit box.
+  const Dual_mesh& mesh() const { return mesh_; }
+
+  /// Values by face of `mesh()` as values by face of the mesh that there was.
+  template <class Value>
+  std::vector<Value> by_part(const std::vector<Value>& values) const {
+    return are_any() ? picked(values, whole_) : values;
+  }
+
+  /// Values by face of the mesh that there was as values by face of `mesh()`: those of the largest parts.
+  template <class Value>
+  std::vector<Value> by_whole(const std::vector<Value>& values) const {
+    return are_any() ? picked(values, largest_part_) : values;
+  }
+
+ private:
+  template <class Value>
+  static std::vector<Value> picked(const std::vector<Value>& values, const std::vector<Index>& places) {
+    std::vector<Value> result;
+    result.reserve(places.size());
+    for (const Index place : places) result.push_back(values[place]);
+    return result;
+  }
+
+  void make_whole(const Cut_facet_search& search) {
     Dual_mesh::Arrays arrays;
     arrays.points = mesh_.points();
-    add_faces(arrays);
+    add_faces(search, arrays);
     add_edges(arrays);
     mesh_ = in_box_of(mesh_, std::move(arrays), largest_part_);
   }
 
-  void add_faces(Dual_mesh::Arrays& arrays) {
-    std::map<Index, Index> face_of_piece;
+  void add_faces(const Cut_facet_search& search, Dual_mesh::Arrays& arrays) {
+    std::map<Index, Index> face_of_facet;  // by its largest part
     const auto add = [&](const auto& corners, Index largest_part) {
       for (const Index v : corners) arrays.corners.add(v);
       arrays.corners.end_face();
@@ -322,13 +341,13 @@ class Cut_facets {
     };
     for (Index f = 0; f < mesh_.number_of_faces(); ++f) {
       const auto next = static_cast<Index>(largest_part_.size());
-      const Piece* piece = find_piece(piece_of_face_[f]);
-      if (!piece || piece->corners.empty()) {
+      const auto facet = search.corners().find(search.largest_in_plane()[f]);
+      if (facet == search.corners().end()) {
         add(mesh_.corners(f), f);
         whole_.push_back(next);
       } else {
-        const auto [whole, is_new] = face_of_piece.insert({piece_of_face_[f], next});
-        if (is_new) add(piece->corners, piece_of_face_[f]);
+        const auto [whole, is_new] = face_of_facet.insert({facet->first, next});
+        if (is_new) add(facet->second, facet->first);
         whole_.push_back(whole->second);
       }
     }
@@ -344,7 +363,7 @@ class Cut_facets {
       const auto [edge, is_new] =
           edge_between.insert({{std::min(f, g), std::max(f, g), Index(mesh_.is_wall(e))}, faces_of_edge.size()});
       if (!is_new) {
-        arrays.edge_ends[edge->second] = joined(arrays.edge_ends[edge->second], mesh_.ends(e));
+        arrays.edge_ends[edge->second] = joined_edge(mesh_, arrays.edge_ends[edge->second], mesh_.ends(e));
         continue;
       }
       faces_of_edge.push_back({f, g});
@@ -355,13 +374,8 @@ class Cut_facets {
   }
 
   Dual_mesh mesh_;
-  double exactness_ = 0;
-  std::vector<Index> piece_of_face_, pieces_at_vertex_;
-  std::vector<char> is_at_sharp_edge_;             // by vertex: of a piece that may have been cut
-  std::map<Index, Piece> pieces_;                  // by number
-  std::map<std::pair<Index, Index>, Edge> sides_;  // by the numbers of two pieces
-  std::vector<Index> whole_;                       // by face of the mesh that there was; empty if no facet was cut
-  std::vector<Index> largest_part_;                // by face of the mesh with whole facets; likewise
+  std::vector<Index> whole_;         // by face of the mesh that there was; empty if no facet was cut
+  std::vector<Index> largest_part_;  // by face of the mesh with whole facets; likewise
 };
 
 }  // namespace RW_segmentation::internal
