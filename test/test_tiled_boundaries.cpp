@@ -174,7 +174,7 @@ Labels parts_at_random(const Shape& shape, std::size_t number, unsigned seed) {
 TEST(TiledBoundaries, OfRefinedTilesMeetVertexByVertex) {
   const Shape shape = meshes::sphere(3);
   std::size_t crossings = 0, moved = 0;
-  for (unsigned seed = 1; seed <= 40; ++seed) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
     const std::size_t number = 2 + seed % 5;  // of tiles
     const Labels labels = parts_at_random(shape, 2 + seed % 12, seed);
     const Labels tile = seed % 4 == 0 ? boundaries::random_cells(shape, number, seed)  // as jagged as can be
@@ -200,8 +200,8 @@ TEST(TiledBoundaries, OfRefinedTilesMeetVertexByVertex) {
     crossings += tiles.crossings.size();
     moved += on_side;
   }
-  EXPECT_GT(crossings, 200U);
-  EXPECT_GT(moved, 200U);
+  EXPECT_GT(crossings, 60U);
+  EXPECT_GT(moved, 60U);
 }
 
 TEST(TiledBoundaries, CrossNoWallBetweenTiles) {
