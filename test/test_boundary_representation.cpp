@@ -25,6 +25,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepCheck_Status.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_ConicalSurface.hxx>
@@ -46,6 +47,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -129,6 +131,45 @@ solids::Solid box_with_wave() {
   return std::move(builder).solid();
 }
 
+/// Some faces with the label of a face that they share a corner with, so that borders have teeth.
+solids::Solid with_teeth(solids::Solid solid, double share_of_faces, unsigned seed) {
+  std::vector<std::vector<std::size_t>> labels_at(solid.points.size());
+  for (std::size_t f = 0; f < solid.faces.size(); ++f)
+    for (const std::size_t v : solid.faces[f]) labels_at[v].push_back(solid.label[f]);
+  std::mt19937 random(seed);
+  std::bernoulli_distribution is_taken(share_of_faces);
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const auto& labels = labels_at[solid.faces[f][0]];
+    if (is_taken(random)) solid.label[f] = labels[random() % labels.size()];
+  }
+  return solid;
+}
+
+/// Surfaces moved by up to a length along each axis, and with radii that are off by up to as large a share.
+std::vector<Analytic_surface> moved_aside(std::vector<Analytic_surface> surfaces, double length, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> way(-length, length);
+  for (Analytic_surface& surface : surfaces) {
+    surface.radius *= 1 + way(random);
+    for (double& x : surface.point) x += way(random);
+  }
+  return surfaces;
+}
+
+/// A cylinder of radius 1 and height 2 with a cone on it or, where `height` is negative, a pit of that shape in it.
+solids::Solid with_pointed_cone(double height) {
+  solids::Builder builder("pointed cone");
+  constexpr std::size_t around = 24;
+  const double rim = 2;
+  solids::flat_disc(builder, solids::by_kernel(), around, 1, 0, false);
+  solids::revolve(builder, builder.add(solids::cylinder({0, 0, 0}, solids::Point::UnitZ(), 1)), around, 1,
+                  solids::line({1, 0, 0}, {1, 0, rim}));
+  const solids::Point apex(0, 0, rim + height), axis(0, 0, height > 0 ? -1 : 1);
+  solids::revolve(builder, builder.add(solids::cone(apex, axis, std::atan(1 / std::abs(height)))), around, 3,
+                  solids::line({1, 0, rim}, apex));
+  return std::move(builder).solid();
+}
+
 void expect_relative(double value, double expected, double error) {
   EXPECT_NEAR(value, expected, error * std::abs(expected));
 }
@@ -189,6 +230,17 @@ TEST(Boundary_representation, CutsWhatClosesRoundItselfIntoFacesWithoutSeams) {
   EXPECT_EQ(result.number_of_faces(Surface_type::torus), result.faces.size());
   expect_relative(result.report.area, 4 * pi * pi * radius * tube_radius, 1e-5);
   expect_relative(result.report.volume, 2 * pi * pi * radius * tube_radius * tube_radius, 1e-5);
+}
+
+TEST(Boundary_representation, HasTheTipOfACone) {
+  for (const double height : {1., -1., -0.3}) {
+    SCOPED_TRACE(height);
+    const Boundary_representation result = represented(with_pointed_cone(height));
+    EXPECT_EQ(result.defect(), "");
+    EXPECT_EQ(result.number_of_faces(Surface_type::cone), 2U);
+    EXPECT_EQ(result.number_of_triangles(), 0U);
+    expect_relative(result.report.volume, 2 * pi + pi * height / 3, 1e-9);
+  }
 }
 
 TEST(Boundary_representation, FitsASurfaceToAFreeForm) {
@@ -404,6 +456,48 @@ TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
     EXPECT_EQ(result.defect(), "");
     expect_relative(result.report.volume, result.report.mesh_volume, 0.03);
   }
+}
+
+TEST(Boundary_representation, CutsOffTeethOfABorderBetweenTwoSurfaces) {
+  for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.25)), solids::pipe_elbow(solids::even(0.25))})
+    for (unsigned seed = 1; seed < 4; ++seed) {
+      SCOPED_TRACE(solid.name + ", seed " + std::to_string(seed));
+      const Boundary_report design = represented(solid).report;
+      const Boundary_representation result = represented(with_teeth(solid, 0.1, seed));
+      EXPECT_EQ(result.defect(), "");
+      // Closer to the design than the mesh with its chords.
+      EXPECT_LT(std::abs(result.report.volume - design.volume), std::abs(design.mesh_volume - design.volume));
+    }
+}
+
+TEST(Boundary_representation, IsThatOfTheMeshWhateverItsSegmentsAre) {
+  std::set<std::string> reasons;
+  std::size_t free_forms = 0, triangles = 0;
+  for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.25)), solids::flange(solids::by_kernel()),
+                                     solids::pipe_elbow(solids::even(0.25))})
+    for (const double length : {3e-3, 3e-2}) {
+      SCOPED_TRACE(solid.name + ", off by " + std::to_string(length));
+      const Boundary_representation result =
+          represented(with_teeth(solid, 0.3, 1), moved_aside(designed_surfaces(solid), length, 1));
+      EXPECT_EQ(result.defect(), "");
+      expect_relative(result.report.volume, result.report.mesh_volume, 0.05);
+      for (const auto& [reason, number] : result.report.refusals) reasons.insert(reason);
+      free_forms += result.number_of_faces(Surface_type::free_form);
+      triangles += result.number_of_triangles();
+    }
+  EXPECT_GE(reasons.size(), 4U);  // so that faces were made again in several ways
+  EXPECT_GT(free_forms, 0U);
+  EXPECT_GT(triangles, 0U);
+}
+
+TEST(KernelErrors, HaveWordsOrTheirNumber) {
+  std::set<std::string> words;
+  for (int status = BRepCheck_NoError + 1; status <= BRepCheck_CheckFail; ++status) {
+    const std::string name = internal::brep::name_of(static_cast<BRepCheck_Status>(status));
+    if (name.find(std::to_string(status)) == std::string::npos) words.insert(name);
+  }
+  EXPECT_EQ(words.count(""), 0U);
+  EXPECT_EQ(words.size(), 8U);
 }
 
 TEST(Boundary_representation, IsScaled) {

@@ -18,7 +18,9 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace test_regular_surfaces {
@@ -259,6 +261,15 @@ TEST(RegularSurfaces, RefuseTolerancesThatAreNone) {
   EXPECT_THROW(regular_surfaces({}, {-1, 0, 0}), std::invalid_argument);
   EXPECT_THROW(regular_surfaces({}, {0, std::numeric_limits<double>::infinity(), 0}), std::invalid_argument);
   EXPECT_TRUE(regular_surfaces({}).surfaces.empty());
+}
+
+TEST(RegularSurfaces, HaveANameForEachRegularity) {
+  std::set<std::string> names;
+  for (const Regularity regularity :
+       {Regularity::parallel, Regularity::perpendicular, Regularity::coplanar, Regularity::coaxial,
+        Regularity::equal_radius, Regularity::equal_ring, Regularity::equal_half_angle})
+    names.insert(name_of(regularity));
+  EXPECT_EQ(names.size(), 7U);
 }
 
 }  // namespace test_regular_surfaces

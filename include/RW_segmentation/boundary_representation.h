@@ -62,7 +62,7 @@ struct Boundary_face {
   bool has_chords = false;      ///< within the edges of the mesh instead of smooth ones
   double area = 0;              ///< of the face
   double mesh_area = 0;         ///< of its triangles
-  double distance_of_mesh = 0;  ///< of the corners of its triangles from its surface, at most
+  double distance_of_mesh = 0;  ///< of the corners of its triangles from the closest surface round them, at most
   double distance_to_mesh = 0;  ///< of points of the face from the mesh, at most; 0 for triangles
   double tolerance = 0;         ///< within which its edges lie on its surface
 };
@@ -128,7 +128,9 @@ inline std::string Boundary_representation::defect() const {
 
 namespace internal {
 
-inline Boundary_face boundary_face(const brep::Shape_component& component, brep::Distance_to_mesh& distance,
+/// \param distances_of_vertices of the component's mesh from the shape
+inline Boundary_face boundary_face(const brep::Shape_component& component,
+                                   const std::vector<double>& distances_of_vertices, brep::Distance_to_mesh& distance,
                                    std::size_t patch_number) {
   const auto& [mesh, building] = component;
   const brep::Patch& patch = building.patches()[patch_number];
@@ -143,7 +145,9 @@ inline Boundary_face boundary_face(const brep::Shape_component& component, brep:
     result.type = placed->type();
   result.area = building.integrals()[patch_number].area;
   result.mesh_area = brep::area_of(mesh, patch.triangles);
-  result.distance_of_mesh = brep::distance_of_corners(mesh, patch);
+  for (const std::size_t t : patch.triangles)
+    for (const std::size_t v : mesh.corners(t))
+      result.distance_of_mesh = std::max(result.distance_of_mesh, distances_of_vertices[v]);
   result.distance_to_mesh = result.is_triangle ? 0 : distance.of_face(result.face);
   result.tolerance = building.tolerances()[patch_number];
   return result;
@@ -181,12 +185,13 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
   brep::Distance_to_mesh distance(mesh, scale);
   std::size_t missing_faces = 0;
   for (const brep::Shape_component& component : components) {
+    const std::vector<double> distances = brep::distances_of_vertices(component.mesh, component.building.patches());
     for (std::size_t i = 0; i < component.building.patches().size(); ++i) {
       if (component.building.faces()[i].IsNull()) {
         ++missing_faces;
         continue;
       }
-      result.faces.push_back(boundary_face(component, distance, i));
+      result.faces.push_back(boundary_face(component, distances, distance, i));
       report.area += result.faces.back().area;
       report.mesh_area += result.faces.back().mesh_area;
     }

@@ -27,19 +27,23 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
 namespace RW_segmentation::internal::brep {
 
-/// How far the corners of a patch's triangles are from its surface, at most.
-inline double distance_of_corners(const Halfedge_triangles& mesh, const Patch& patch) {
-  if (!patch.surface) return 0;
-  double largest = 0;
-  for (const std::size_t t : patch.triangles)
-    for (const std::size_t v : mesh.corners(t))
-      largest = std::max(largest, std::abs(patch.surface->distance(mesh.point(v))));
-  return largest;
+/// How far each vertex is from the closest of the surfaces round it; 0 beside triangles, which are what they were.
+///
+/// Edges of the shape cut off teeth in the border between two segments. The corners of these are far from one of the surfaces,
+/// but not from the shape.
+inline std::vector<double> distances_of_vertices(const Halfedge_triangles& mesh, const std::vector<Patch>& patches) {
+  std::vector<double> distances(mesh.points().size(), std::numeric_limits<double>::infinity());
+  for (const Patch& patch : patches)
+    for (const std::size_t t : patch.triangles)
+      for (const std::size_t v : mesh.corners(t))
+        distances[v] = std::min(distances[v], patch.surface ? std::abs(patch.surface->distance(mesh.point(v))) : 0);
+  return distances;
 }
 
 /// The border of a face in the parameters of its surface, as sides of polygons.
