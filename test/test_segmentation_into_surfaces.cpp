@@ -819,6 +819,17 @@ TEST(SegmentationIntoSurfaces, FindsTheFacesOfAnAssemblyWhereCoordinatesAreRound
   }
 }
 
+TEST(SegmentationIntoSurfaces, LeavesComponentsWholeThatTouchInAVertexUnderNoise) {
+  // Of short triangles, enough to be looked at alone, and of long ones, which are cut.
+  constexpr double percent = 0.1;
+  solids::Builder builder("two plates");
+  builder.grid(builder.add({}), 24, 24, [](double u, double v) -> solids::Point { return {u, v, 0}; });
+  builder.grid(builder.add({}), 3, 3, [](double u, double v) -> solids::Point { return {-u, -v, u}; });
+  const solids::Solid plates = solids::with_noise(std::move(builder).solid(), percent);
+  ASSERT_EQ(plates.points.size(), 25u * 25u + 4u * 4u - 1u);
+  EXPECT_EQ(rand_error(segments_of(plates, with_noise_of(percent)), plates.label), 0);
+}
+
 TEST(SegmentationIntoSurfaces, ReckonsWithTheNoiseOfAWholeAssembly) {
   constexpr double deviation = 2e-3;
   meshes::Shape spheres = meshes::sphere(4);

@@ -55,16 +55,18 @@ inline std::vector<Mesh_stretch> long_stretches(const std::vector<Mesh_stretch>&
   return stretches;
 }
 
-/// As above, of several components at the same time, which know nothing of each other.
-inline Analytic_regions regions_of_components(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
-                                              const Progress& progress) {
+/// The regions of several components at the same time, which know nothing of each other.
+/// \param regions_of_part a function of some components with their tolerance, and of the progress, that returns their regions
+template <class Regions_of_part>
+Analytic_regions regions_of_components(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
+                                       const Regions_of_part& regions_of_part, const Progress& progress) {
   const std::vector<Mesh_stretch> stretches = long_stretches(connected_stretches(mesh.graph()));
-  if (stretches.size() <= 1) return regions_of_faces(mesh, tolerance, progress);
+  if (stretches.size() <= 1) return regions_of_part(mesh, tolerance, progress);
   std::vector<Analytic_regions> found(stretches.size());
   const auto find = [&](std::size_t i, const Progress& part) {
     std::vector<Dual_mesh::Index> faces(stretches[i].faces);
     std::iota(faces.begin(), faces.end(), stretches[i].first_face);
-    found[i] = regions_of_faces(mesh.components_in_place(stretches[i]), tolerance.of_parts(faces), part);
+    found[i] = regions_of_part(mesh.components_in_place(stretches[i]), tolerance.of_parts(faces), part);
   };
   constexpr bool concurrent = true;
   long_tasks(sizes_of(stretches), progress, find, concurrent);
@@ -97,8 +99,8 @@ inline Analytic_regions carried_back(const Analytic_regions& triangles, const Fa
 inline Analytic_regions regions_of_triangles(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                              double longest_side, const Progress& progress) {
   const Face_refinement refinement(mesh, longest_side);
-  return carried_back(regions_of_components(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress),
-                      refinement, mesh.number_of_faces());
+  return carried_back(regions_of_faces(refinement.mesh(), tolerance.of_parts(refinement.faces()), progress), refinement,
+                      mesh.number_of_faces());
 }
 
 /// The length that triangles may have so that about `most` of them make up the faces, and at least `least`. Halved again
@@ -120,14 +122,19 @@ inline Dual_mesh with_walls_at_flat_sides(const Dual_mesh& mesh) {
 
 RW_SEGMENTATION_INLINE Analytic_regions find_analytic_regions(const Dual_mesh& mesh, const Surface_tolerance& tolerance,
                                                               const Progress& progress) {
-  if (!tolerance.has_noise()) return regions_of_components(with_walls_at_flat_sides(mesh), tolerance, progress);
+  if (!tolerance.has_noise())
+    return regions_of_components(with_walls_at_flat_sides(mesh), tolerance, regions_of_faces, progress);
   constexpr double longest_side = 0.05;     // in parts of the diagonal
   constexpr double most_triangles = 20000;  // solids have 5000 or so
   const double side = side_of_triangles(mesh, longest_side, most_triangles);
   const std::vector<double>& lengths = mesh.edge_lengths();
   const bool has_long_sides = std::any_of(lengths.begin(), lengths.end(), [&](double length) { return length > side; });
-  if (!tolerance.is_noisy() || !has_long_sides) return regions_of_components(mesh, tolerance, progress);
-  Analytic_regions regions = regions_of_triangles(mesh, tolerance, side, progress);
+  if (!tolerance.is_noisy() || !has_long_sides)
+    return regions_of_components(mesh, tolerance, regions_of_faces, progress);
+  const auto refined = [&](const Dual_mesh& part, const Surface_tolerance& of_part, const Progress& of_progress) {
+    return regions_of_triangles(part, of_part, side, of_progress);
+  };
+  Analytic_regions regions = regions_of_components(mesh, tolerance, refined, progress);
   Region_borders(mesh, tolerance, regions).settle(progress);
   return regions;
 }
