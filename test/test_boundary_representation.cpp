@@ -145,6 +145,35 @@ solids::Solid with_teeth(solids::Solid solid, double share_of_faces, unsigned se
   return solid;
 }
 
+/// The first two corners of a face joined by two edges, the first of which has no length.
+solids::Solid with_vertex_twice(solids::Solid solid, std::size_t face) {
+  const std::size_t a = solid.faces[face][0], b = solid.faces[face][1], middle = solid.points.size();
+  solid.points.push_back(solid.points[a]);
+  for (std::size_t f = 0, faces = solid.faces.size(); f < faces; ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t from = solid.faces[f][k], to = solid.faces[f][(k + 1) % 3], apex = solid.faces[f][(k + 2) % 3];
+      if (std::minmax(from, to) != std::minmax(a, b)) continue;
+      solid.faces[f] = {from, middle, apex};
+      solid.faces.push_back({middle, to, apex});
+      solid.label.push_back(solid.label[f]);
+      break;
+    }
+  return solid;
+}
+
+/// A face folded: five in its place, of which an edge has no length and cannot be none, since four faces would meet in one edge
+/// then.
+solids::Solid with_fold(solids::Solid solid, std::size_t face) {
+  const std::size_t a = solid.faces[face][0], b = solid.faces[face][1], c = solid.faces[face][2];
+  const std::size_t d = solid.points.size(), e = d + 1;
+  solid.points.push_back(solid.points[a]);
+  solid.points.push_back((solid.points[a] + solid.points[b] + solid.points[c]) / 3);
+  solid.faces[face] = {b, c, d};
+  solid.faces.insert(solid.faces.end(), {{c, a, d}, {a, b, e}, {b, d, e}, {d, a, e}});
+  solid.label.insert(solid.label.end(), 4, solid.label[face]);
+  return solid;
+}
+
 /// Surfaces moved by up to a length along each axis, and with radii that are off by up to as large a share.
 std::vector<Analytic_surface> moved_aside(std::vector<Analytic_surface> surfaces, double length, unsigned seed) {
   std::mt19937 random(seed);
@@ -482,6 +511,31 @@ TEST(Boundary_representation, IsThatOfTheMeshWhateverItsSegmentsAre) {
   EXPECT_GE(result.report.refusals.size(), 4U);
   EXPECT_GT(result.number_of_faces(Surface_type::free_form), 0U);
   EXPECT_GT(result.number_of_triangles(), 0U);
+}
+
+TEST(Boundary_representation, HasNoEdgesWithoutLength) {
+  solids::Solid solid = solids::box(solids::by_kernel());
+  const std::size_t faces = solid.faces.size();
+  for (std::size_t f = 0; f < faces; f += 5) solid = with_vertex_twice(std::move(solid), f);
+  std::iota(solid.label.begin(), solid.label.end(), std::size_t(0));
+  const Boundary_representation result = represented(solid, std::vector<Analytic_surface>(solid.faces.size()));
+  EXPECT_EQ(result.defect(), "");
+  EXPECT_EQ(result.faces.size(), faces);
+  expect_relative(result.report.volume, 6, 1e-12);
+}
+
+TEST(Boundary_representation, IsNotClosedWhereNoFacesCanBeMade) {
+  solids::Solid folded = with_fold(box_with_wave(), 0);
+  std::vector<Analytic_surface> surfaces = designed_surfaces(folded);
+  surfaces[1] = Analytic_surface();
+  for (std::size_t& label : folded.label) {
+    if (label == 1) continue;
+    label = surfaces.size();
+    surfaces.emplace_back();
+  }
+  const Boundary_representation result = represented(folded, surfaces);
+  EXPECT_FALSE(result.report.is_closed);
+  EXPECT_NE(result.defect(), "");
 }
 
 TEST(KernelErrors, HaveWordsOrTheirNumber) {

@@ -185,7 +185,8 @@ inline Boundary_representation boundary_representation(const Dual_mesh& mesh,
   brep::Distance_to_mesh distance(mesh, scale);
   std::size_t missing_faces = 0;
   for (const brep::Shape_component& component : components) {
-    const std::vector<double> distances = brep::distances_of_vertices(component.mesh, component.building.patches());
+    const std::vector<double> distances =
+        brep::distances_of_vertices(component.mesh, component.building.patches(), component.building.faces());
     for (std::size_t i = 0; i < component.building.patches().size(); ++i) {
       if (component.building.faces()[i].IsNull()) {
         ++missing_faces;

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -29,6 +31,9 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// A connected component of the mesh as triangles and halfedges, in the coordinates of the shape. Halfedges 3 f, 3 f + 1 and 3 f + 2 go round
 /// triangle f. A face of more than three sides is cut into triangles, see `Polygon_triangles`.
+///
+/// Edges of no length, as rounded coordinates have them, are no edges for the kernel: their ends are one vertex, and faces with
+/// fewer than three of these are left out, unless edges would then join more than two faces.
 class Halfedge_triangles {
  public:
   /// \param scale of the shape beside the mesh
@@ -46,20 +51,15 @@ class Halfedge_triangles {
       }
       return place->second;
     };
-    std::vector<std::vector<std::size_t>> polygons;
+    std::vector<Polygon> polygons;
     for (const Dual_mesh::Index f : faces) {
       polygons.emplace_back();
       for (const Dual_mesh::Index v : mesh.corners(f)) polygons.back().push_back(number_of(v));
     }
-    Polygon_triangles triangles(points_, polygons);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (const auto& corners : triangles.of(polygons[i])) {
-        corners_.push_back(corners);
-        face_.push_back(faces[i]);
-      }
+    if (!make_triangles(faces, without_short_edges(polygons)) && !make_triangles(faces, polygons))
+      throw std::invalid_argument("the mesh has several edges between the same two vertices");
     diagonal_ = box.diagonal().norm();
     middle_ = box.center();
-    pair_halfedges();
   }
 
   std::size_t number_of_triangles() const { return corners_.size(); }
@@ -121,7 +121,44 @@ class Halfedge_triangles {
   }
 
  private:
-  void pair_halfedges() {
+  using Polygon = std::vector<std::size_t>;
+
+  /// Polygons whose vertices are one where they are as close as those of the kernel that are one.
+  std::vector<Polygon> without_short_edges(std::vector<Polygon> polygons) const {
+    constexpr double shortest_edge = 1e-7;  // `Precision::Confusion()`
+    boost::disjoint_sets_with_storage<> vertices(points_.size());
+    bool are_any = false;
+    for (const Polygon& polygon : polygons)
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::size_t v = polygon[i], w = polygon[(i + 1) % polygon.size()];
+        if ((point(v) - point(w)).norm() > shortest_edge) continue;
+        vertices.union_set(v, w);
+        are_any = true;
+      }
+    if (!are_any) return polygons;
+    for (Polygon& polygon : polygons) {
+      for (std::size_t& v : polygon) v = vertices.find_set(v);
+      polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+      while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    }
+    return polygons;
+  }
+
+  /// \returns whether there are any, and at most two at each edge, in opposite directions
+  bool make_triangles(const std::vector<Dual_mesh::Index>& faces, const std::vector<Polygon>& polygons) {
+    corners_.clear();
+    face_.clear();
+    Polygon_triangles triangles(points_, polygons);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const auto& corners : triangles.of(polygons[i])) {
+        corners_.push_back(corners);
+        face_.push_back(faces[i]);
+      }
+    return !corners_.empty() && pair_halfedges();
+  }
+
+  /// \returns whether there are at most two at each edge, in opposite directions
+  bool pair_halfedges() {
     opposite_.assign(number_of_halfedges(), none);
     struct Entry {
       std::size_t low, high, halfedge;
@@ -137,11 +174,11 @@ class Halfedge_triangles {
     for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
       const Entry &a = entries[i], &b = entries[i + 1];
       if (a.low != b.low || a.high != b.high) continue;
-      if (from(a.halfedge) == from(b.halfedge) || opposite_[a.halfedge] != none)
-        throw std::invalid_argument("the mesh has several edges between the same two vertices");
+      if (from(a.halfedge) == from(b.halfedge) || opposite_[a.halfedge] != none) return false;
       opposite_[a.halfedge] = b.halfedge;
       opposite_[b.halfedge] = a.halfedge;
     }
+    return true;
   }
 
   std::vector<Point> points_;

@@ -37,12 +37,17 @@ namespace RW_segmentation::internal::brep {
 ///
 /// Edges of the shape cut off teeth in the border between two segments. The corners of these are far from one of the surfaces,
 /// but not from the shape.
-inline std::vector<double> distances_of_vertices(const Halfedge_triangles& mesh, const std::vector<Patch>& patches) {
+/// \param faces by patch; null where there is none
+inline std::vector<double> distances_of_vertices(const Halfedge_triangles& mesh, const std::vector<Patch>& patches,
+                                                 const std::vector<TopoDS_Face>& faces) {
   std::vector<double> distances(mesh.points().size(), std::numeric_limits<double>::infinity());
-  for (const Patch& patch : patches)
-    for (const std::size_t t : patch.triangles)
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (faces[i].IsNull()) continue;
+    const auto& surface = patches[i].surface;
+    for (const std::size_t t : patches[i].triangles)
       for (const std::size_t v : mesh.corners(t))
-        distances[v] = std::min(distances[v], patch.surface ? std::abs(patch.surface->distance(mesh.point(v))) : 0);
+        distances[v] = std::min(distances[v], surface ? std::abs(surface->distance(mesh.point(v))) : 0);
+  }
   return distances;
 }
 
