@@ -32,8 +32,8 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// A connected component of the mesh as triangles and halfedges, in the coordinates of the shape. Halfedges 3 f, 3 f + 1 and 3 f + 2 go round
 /// triangle f. A face of more than three sides is cut into triangles, see `Polygon_triangles`.
 ///
-/// Edges of no length, as rounded coordinates have them, are no edges for the kernel: their ends are one vertex, and faces with
-/// fewer than three of these are left out, unless edges would then join more than two faces.
+/// Both ends of an edge that the kernel takes for a point, as rounded coordinates have them, are one vertex, and faces that are
+/// left with fewer than three corners are dropped; unless more than two faces would meet in an edge then.
 class Halfedge_triangles {
  public:
   /// \param scale of the shape beside the mesh
@@ -123,7 +123,7 @@ class Halfedge_triangles {
  private:
   using Polygon = std::vector<std::size_t>;
 
-  /// Polygons whose vertices are one where they are as close as those of the kernel that are one.
+  /// The polygons with both ends of each edge that the kernel takes for a point as one vertex.
   std::vector<Polygon> without_short_edges(std::vector<Polygon> polygons) const {
     constexpr double shortest_edge = 1e-7;  // `Precision::Confusion()`
     boost::disjoint_sets_with_storage<> vertices(points_.size());

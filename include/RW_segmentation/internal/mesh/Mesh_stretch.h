@@ -17,7 +17,9 @@ struct Mesh_stretch {
   Dual_graph::Index first_edge = 0, edges = 0;
 };
 
-/// The connected components of a mesh that has been read, across walls: `Mesh_reading` numbers them one after the other.
+/// The connected components of a mesh, across walls; several in one stretch where their faces are not one after the other.
+/// \pre the edges of a stretch come after those of the one before, as where edges are numbered by the lower one of their faces
+/// (`Mesh_reading`, `Joined_faces`)
 /// Complexity: linear.
 inline std::vector<Mesh_stretch> connected_stretches(const Dual_graph& graph) {
   std::vector<Mesh_stretch> stretches;
