@@ -28,8 +28,8 @@ export class EngineClient {
   /** How often each call was made. */
   readonly counts: Partial<Record<keyof Calls, number>> = {};
 
-  private worker = this.startWorker();
-  private isAlive = false;
+  /** Started by the first call: an engine that nothing asks takes neither time nor memory. */
+  private worker: Worker | null = null;
   private readonly pending = new Map<number, Pending>();
   private nextId = 0;
   /** The mesh, and whether the worker has it. */
@@ -49,7 +49,7 @@ export class EngineClient {
 
   /** Takes a mesh that another engine has loaded, when it is needed. Computations on the former one end. */
   follow(source: MeshSource): void {
-    if (this.pending.size > 0) this.restart(new Cancelled());
+    if (this.pending.size > 0) this.end(new Cancelled());
     this.source = source;
     this.isLoaded = false;
   }
@@ -88,7 +88,7 @@ export class EngineClient {
   cancel(): void {
     const waiting = [...this.pending.values()].filter(({ request }) => !['follow', 'hierarchy'].includes(request.name));
     for (const { request } of waiting) this.pending.delete(request.id);
-    this.restart(new Cancelled());
+    this.end(new Cancelled());
     for (const call of waiting) {
       this.giveMesh();
       this.post(call);
@@ -108,8 +108,9 @@ export class EngineClient {
   private giveMesh(): void {
     if (this.isLoaded || !this.source) return;
     this.isLoaded = true;
+    const answer = this.call('follow', [this.source, this.parameters]);
     const { worker } = this;
-    this.call('follow', [this.source, this.parameters]).catch(() => {
+    answer.catch(() => {
       if (worker === this.worker) this.isLoaded = false; // else another one may have it
     });
   }
@@ -128,39 +129,32 @@ export class EngineClient {
 
   private post(call: Pending): void {
     this.pending.set(call.request.id, call);
+    this.worker ??= this.startWorker();
     this.worker.postMessage(call.request);
   }
 
   private startWorker(): Worker {
     const worker = new EngineWorker();
     worker.onmessage = (event: MessageEvent<Reply>) => this.receive(event.data);
-    worker.onerror = (event) => {
-      const error = new Error(`The engine stopped: ${event.message}`);
-      if (this.isAlive) this.restart(error);
-      else this.rejectAll(error); // another one would not start either
-    };
+    worker.onerror = (event) => this.end(new Error(`The engine stopped: ${event.message}`));
     return worker;
   }
 
   private receive(reply: Reply): void {
-    this.isAlive = true;
     const call = this.pending.get(reply.id);
     if (!call) return;
     if ('progress' in reply) return call.onProgress?.(reply.progress);
     this.pending.delete(reply.id);
     if ('result' in reply) return call.resolve(reply.result as never);
     call.reject(new Error(reply.error));
-    if (reply.fatal) this.restart(new Error(reply.error));
+    if (reply.fatal) this.end(new Error(reply.error));
   }
 
-  private restart(reason: Error): void {
-    this.worker.terminate();
-    this.worker = this.startWorker();
+  /** The next call starts another worker. */
+  private end(reason: Error): void {
+    this.worker?.terminate();
+    this.worker = null;
     this.isLoaded = false;
-    this.rejectAll(reason);
-  }
-
-  private rejectAll(reason: Error): void {
     const calls = [...this.pending.values()];
     this.pending.clear();
     for (const call of calls) call.reject(reason);

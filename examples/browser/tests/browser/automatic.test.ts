@@ -49,6 +49,15 @@ test('the slider marks the numbers of parts that people may prefer', async ({ se
   expect(Array.from(levels)).toContain(suggested);
 });
 
+test('the engine of the background starts when parts are first sought', async ({ segmentation }) => {
+  const { page } = segmentation;
+  expect(page.workers()).toHaveLength(1);
+  await page.click('#tab-automatic');
+  await page.click('#compute');
+  await expect(page.locator('#parts')).toBeVisible();
+  expect(page.workers()).toHaveLength(2);
+});
+
 test('the parts are those that the engine finds', async ({ segmentation }) => {
   const { page } = segmentation;
   const { fragmentOfFace, fragments, suggested } = await partsOfBumps(segmentation);
