@@ -155,6 +155,19 @@ inline std::string cube_of_separate_squares(int n) {
   return "OFF\n" + std::to_string(number) + " " + std::to_string(number / 4) + " 0\n" + points.str() + faces.str();
 }
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as g++ says it
+#endif
+#endif
+/// How much longer the side of a grid has to be that keeps the tool at work than one under AddressSanitizer, where all of the
+/// tool takes ten times as long.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int longer_without_sanitizer = 1;
+#else
+constexpr int longer_without_sanitizer = 3;
+#endif
+
 /// The square of n by n unit squares.
 inline std::string grid(int n) {
   std::ostringstream file;

@@ -274,7 +274,7 @@ class Segment_mesh_signals : public Segment_mesh_tool {
 };
 
 TEST_F(Segment_mesh_signals, NoPartialFileSurvivesASignal) {
-  write("grid.off", grid(120));
+  write("grid.off", grid(40 * longer_without_sanitizer));
   for (const auto& [signal, mode] : std::vector<std::pair<int, std::vector<std::string>>>{
            {SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}, {SIGQUIT, {}}, {SIGXCPU, {}}, {SIGINT, {"--engineering"}}}) {
     const pid_t process = start(std::vector<std::string>{"grid.off", "--labels", "l.seg", "--split", "parts"} + mode,

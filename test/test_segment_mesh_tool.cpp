@@ -1103,7 +1103,7 @@ TEST_F(Segment_mesh_tool, FilesOfSeveralMeshesNeverMeet) {
 
 TEST_F(Segment_mesh_tool, CtrlCKeepsTheMeshesThatAreDone) {
   write("first.off", strip(3));
-  write("second.off", grid(300));
+  write("second.off", grid(100 * longer_without_sanitizer));
   const pid_t process = start({"first.off", "second.off", "--labels", "%.seg", "--report", "all.jsonl", "--seed", "0"});
   const auto is_at_second = [&] {
     for (const auto& [name, content] : files())
@@ -1196,7 +1196,7 @@ TEST_F(Segment_mesh_tool, AnOutputThatCannotBeWrittenIsCodeFive) {
 }
 
 TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
-  write("grid.off", grid(300));  // keeps it busy for a while
+  write("grid.off", grid(100 * longer_without_sanitizer));  // keeps it busy for a while
   const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "80000"});
   // The outputs are created, under other names, before the work begins.
   const auto is_at_work = [&] { return std::distance(std::filesystem::directory_iterator(path("")), {}) > 1; };
@@ -1316,11 +1316,6 @@ TEST_F(Segment_mesh_tool, LimitsAreCheckedBeforeAnythingIsDone) {
     expect_failure(1, "--max-memory", {"strip.off", "--seed", "0", "--labels", "l.seg", "--max-memory", size});
 }
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__  // as g++ says it
-#endif
-#endif
 #ifndef __SANITIZE_ADDRESS__  // which needs all the memory that there is
 
 TEST_F(Segment_mesh_tool, AMeshThatNeedsMoreMemoryIsGivenUpAndTheNextOneDone) {
