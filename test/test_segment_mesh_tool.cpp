@@ -10,6 +10,8 @@ TEST(Segment_mesh_tool, Runs) { GTEST_SKIP() << "the tool is not built"; }
 
 #else
 
+#include "../examples/mesh_files.h"
+
 #include "segment_mesh_tool.h"
 
 #include <nlohmann/json.hpp>
@@ -438,16 +440,55 @@ TEST_F(Segment_mesh_tool, RefineCutsAllOutputsAlongSmoothBoundaries) {
   EXPECT_TRUE(std::filesystem::exists(path("parts/segment_0.ply")) &&
               std::filesystem::exists(path("parts/segment_1.ply")));
 
-  write("grid.off", grid(4));
-  std::filesystem::remove_all(path("parts"));
-  write("no_edge.txt", "0 24\n");  // refused where walls are marked, which is before the segmentation
-  for (const std::vector<std::string>& options : {std::vector<std::string>{"--refine"},
-                                                  {"--refine", "--engineering"},
-                                                  {"--boundaries", "b.obj"},
-                                                  {"--smooth", "--boundaries", "b.obj"}})
-    expect_failure(3, "grid.off: face 0 is no triangle",
-                   std::vector<std::string>{"grid.off", "--constraints", "no_edge.txt", "--output", "g.off"} + options);
   expect_failure(1, "--smooth", {"sheet.off", "--smooth"});
+}
+
+TEST_F(Segment_mesh_tool, PolygonsAreCutIntoTrianglesForBoundariesAlone) {
+  // A tower of two storeys over an L.
+  const std::vector<std::array<double, 2>> outline = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  std::string points, walls;
+  for (int storey = 0; storey < 3; ++storey)
+    for (int i = 0; i < 6; ++i) {
+      const auto& [x, y] = outline[std::size_t(i)];
+      points += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(storey) + "\n";
+      const int a = 6 * storey + i, b = 6 * storey + (i + 1) % 6;
+      if (storey < 2)
+        walls += "4 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + 6) + " " +
+                 std::to_string(a + 6) + "\n";
+    }
+  write("tower.off", "OFF\n18 14 0\n" + points + walls + "6 5 4 3 2 1 0\n6 12 13 14 15 16 17\n");
+  const std::vector<std::string> seeds = {"tower.off", "--seed", "12", "--seed", "13"};
+
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"--labels", "whole.seg"}).exit_code, 0);
+  const Result result =
+      run(seeds + std::vector<std::string>{"--refine", "--output", "r.off", "--labels", "r.seg", "--probabilities",
+                                           "r.txt", "--boundaries", "r.obj", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("14 polygons cut into triangles"), std::string::npos) << result.errors;
+  EXPECT_NE(content_of(path("r.json")).find("14 polygons cut into triangles"), std::string::npos);
+  const auto refined = mesh_files::read_mesh(path("r.off"));
+  double area = 0;
+  for (std::size_t f = 0; f < refined.number_of_faces(); ++f) {
+    const auto face = refined.face(f);
+    ASSERT_EQ(face.size(), 3);
+    area += std::sqrt(CGAL::squared_area(refined.points[face[0]], refined.points[face[1]], refined.points[face[2]]));
+  }
+  EXPECT_NEAR(area, 2 * 5 + 2 * 12, 1e-9) << "some triangle lies outside of its polygon";
+  const auto before = labels("whole.seg"), after = labels("r.seg");
+  ASSERT_EQ(after.size(), refined.number_of_faces());
+  EXPECT_EQ(number_of_lines(content_of(path("r.txt"))), after.size() + 1);
+  for (const std::size_t f : {12, 13}) EXPECT_EQ(after[f], before[f]) << "the first faces are those of the file";
+
+  // Without --refine the mesh keeps its faces.
+  ASSERT_EQ(run(seeds + std::vector<std::string>{"--output", "whole.off"}).exit_code, 0);
+  for (const std::vector<std::string>& smooth : {std::vector<std::string>{}, {"--smooth"}}) {
+    ASSERT_EQ(run(seeds + smooth + std::vector<std::string>{"--output", "b.off", "--boundaries", "b.obj"}).exit_code,
+              0);
+    EXPECT_EQ(content_of(path("b.off")), content_of(path("whole.off")));
+    if (!smooth.empty()) {
+      EXPECT_EQ(content_of(path("b.obj")), content_of(path("r.obj")));
+    }
+  }
 }
 
 TEST_F(Segment_mesh_tool, SeedsOfTheUserJoinTheAutomaticOnes) {
@@ -1197,7 +1238,7 @@ TEST_F(Segment_mesh_tool, AnOutputThatCannotBeWrittenIsCodeFive) {
 
 TEST_F(Segment_mesh_tool, CtrlCEndsItCleanly) {
   write("grid.off", grid(100 * longer_without_sanitizer));  // keeps it busy for a while
-  const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "80000"});
+  const pid_t process = start({"grid.off", "--labels", "l.seg", "-o", "l.ply", "--seed", "0", "--seed", "9999"});
   // The outputs are created, under other names, before the work begins.
   const auto is_at_work = [&] { return std::distance(std::filesystem::directory_iterator(path("")), {}) > 1; };
   for (int i = 0; i < 60000 && !is_at_work(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));

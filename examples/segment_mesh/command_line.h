@@ -256,9 +256,10 @@ inline void define_command_line(CLI::App& app, Options& options) {
 
   app.add_flag("--smooth", options.is_smooth, "Smooth the boundaries between segments; they keep to creases")
       ->group("Boundaries");
-  app.add_flag("--refine", options.is_refined,
-               "Cut the smooth boundaries into the mesh that is written; all faces must be triangles. The first faces\n"
-               "are those of the mesh, or what is left of them, and new ones follow.")
+  app.add_flag(
+         "--refine", options.is_refined,
+         "Cut the smooth boundaries into the mesh that is written, and its polygons into triangles for that. The\n"
+         "first faces are those of the mesh, or what is left of them, and new ones follow.")
       ->group("Boundaries");
   app.add_option("--boundaries", options.files.boundaries, "The boundaries as polylines, an OBJ file")
       ->option_text("FILE")

@@ -110,7 +110,7 @@ inline bool has_unsound_shape(const Json& report) {
 /// \throws std::invalid_argument if there is no such edge
 inline Wall_map walls_of(const Options& options, const std::vector<Constraint>& constraints,
                          const mesh_files::Polygon_soup& soup, Mesh& mesh) {
-  const Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+  const Wall_map walls = wall_map(mesh);
   mark_constraints(soup.points, constraints, mesh, walls);
   if (options.constraints_angle) mark_sharp_edges(mesh, *options.constraints_angle, walls);
   return walls;
@@ -139,7 +139,6 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   refuse_mesh_without_faces(task.mesh, input);
   input.remarks.insert(input.remarks.begin(), soup.remarks.begin(), soup.remarks.end());
   remark(input.remarks);
-  check_triangles(task.mesh, input, options);
 
   const std::vector<Face_label> seeds = seed_faces(seed_texts, input);
   const Wall_map walls = walls_of(options, constraints, soup, input.mesh);
@@ -148,7 +147,10 @@ inline Json run(const Task& task, const Options& options, const std::string& tit
   survive_signals();
   Output_files files(task.files, options);
   Segmentation result = segment(input.mesh, walls, seeds, options, method, stages);
-  treat_boundaries(options, soup, input, walls, result, stages, files);
+  if (const std::size_t polygons = treat_boundaries(options, soup, input, walls, result, stages, files); polygons > 0) {
+    input.remarks.push_back(counted(polygons, "polygon") + " cut into triangles, into which boundaries can be cut");
+    remark({input.remarks.back()});
+  }
 
   std::optional<Closed_parts> closed;
   if (options.are_parts_closed) {

@@ -12,8 +12,10 @@
 #include "Stages.h"
 #include "walls.h"
 
+#include <CGAL/boost/graph/helpers.h>
+
 #include <cstddef>
-#include <string>
+#include <vector>
 
 namespace segment_mesh {
 
@@ -27,16 +29,6 @@ inline bool smooths_boundaries(const Options& options) {
   return options.is_refined || (options.is_smooth && treats_boundaries(options));
 }
 
-/// Refuses a mesh whose boundaries cannot be smoothed or cut, which only the stage after the segmentation would find out.
-/// \throws Argument_out_of_range if boundaries are asked for and a face is no triangle
-inline void check_triangles(const std::string& path, const Oriented_mesh& input, const Options& options) {
-  if (!treats_boundaries(options)) return;
-  for (std::size_t f = 0; f < input.mesh_face.size(); ++f)
-    if (input.mesh_face[f] != Mesh::null_face() && input.mesh.degree(input.mesh_face[f]) != 3)
-      throw Argument_out_of_range(path + ": face " + std::to_string(f) +
-                                  " is no triangle: boundaries are smoothed and cut on triangle meshes only");
-}
-
 /// Writes the boundaries and cuts them into the mesh, as far as asked for.
 inline void use_boundaries(const Options& options, const Boundary_curves& curves, mesh_files::Polygon_soup& soup,
                            Oriented_mesh& input, Segmentation& result, Output_files& files) {
@@ -47,14 +39,27 @@ inline void use_boundaries(const Options& options, const Boundary_curves& curves
   input.mesh_face.assign(input.mesh.faces_begin(), input.mesh.faces_end());
 }
 
-/// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for.
-inline void treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
-                             const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
-  if (!treats_boundaries(options)) return;
+/// Smooths and writes the boundaries and cuts them into the mesh, as far as asked for. They are those of a mesh whose polygons
+/// are cut into triangles; a mesh that nothing is cut into keeps its own.
+/// \returns how many polygons of the mesh were cut
+inline std::size_t treat_boundaries(const Options& options, mesh_files::Polygon_soup& soup, Oriented_mesh& input,
+                                    const Wall_map& walls, Segmentation& result, Stages& stages, Output_files& files) {
+  if (!treats_boundaries(options)) return 0;
   const auto callback = stages.start("boundaries");
-  const Boundary_curves curves =
-      boundary_curves(input.mesh, walls, result.label, smooths_boundaries(options), callback);
-  use_boundaries(options, curves, soup, input, result, files);
+  const auto curves_on = [&](const Mesh& mesh, const Wall_map& walls_of_mesh, std::vector<std::size_t>& label) {
+    return boundary_curves(mesh, walls_of_mesh, label, smooths_boundaries(options), callback);
+  };
+  if (!options.is_refined && !CGAL::is_triangle_mesh(input.mesh)) {
+    Mesh triangles = input.mesh;
+    Segmentation of_triangles;
+    of_triangles.label = result.label;
+    cut_polygons(triangles, of_triangles);
+    files.write_boundaries(curves_on(triangles, wall_map(triangles), of_triangles.label));
+    return 0;
+  }
+  const std::size_t polygons = cut_polygons(input.mesh, result);
+  use_boundaries(options, curves_on(input.mesh, walls, result.label), soup, input, result, files);
+  return polygons;
 }
 
 }  // namespace segment_mesh

@@ -54,6 +54,9 @@ inline std::vector<Constraint> read_constraints(const std::string& path) {
 /// Which edges of a mesh are walls.
 using Wall_map = Mesh::Property_map<Mesh::Edge_index, bool>;
 
+/// The walls of a mesh: none at first, and those of the other one where it is a copy.
+inline Wall_map wall_map(Mesh& mesh) { return mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first; }
+
 /// The edges of a mesh by the places of their ends: repairs join vertices and take them apart, but move none.
 class Edges_by_place {
  public:

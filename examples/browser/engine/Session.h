@@ -280,7 +280,7 @@ class Session {
 
   std::vector<Point> points_of_file_;  // by which users name edges; repairs may number others
   segment_mesh::Oriented_mesh input_;
-  segment_mesh::Wall_map walls_ = input_.mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+  segment_mesh::Wall_map walls_ = segment_mesh::wall_map(input_.mesh);
   std::optional<Walk> walk_;
   Point origin_;  // of what is drawn
 };

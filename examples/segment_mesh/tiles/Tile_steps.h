@@ -152,17 +152,17 @@ class Tile_steps {
     return line_of(parameters);
   }
 
-  /// Refuses tiles whose boundaries cannot be smoothed or cut, which only the last steps would find out.
-  /// \throws Argument_out_of_range if boundaries are asked for and a face that was surveyed is no triangle
+  /// Refuses tiles whose boundaries cannot be smoothed, which only the last steps would find out.
+  /// \throws Argument_out_of_range if smooth boundaries are asked for and a face that was surveyed is no triangle
   void check_triangles() const {
-    if (!treats_boundaries(options_)) return;
+    if (!smooths_boundaries(options_)) return;
     for (std::size_t t = 0; t < tasks_.size(); ++t) {
       std::string failure, sources;
       Index polygon = no_face;
       folder_.read_of_tile_into(t, "survey", failure, sources, polygon);
       if (polygon != no_face)
         throw Argument_out_of_range(tasks_[t].mesh + ": face " + std::to_string(polygon) +
-                                    " is no triangle: boundaries are smoothed and cut on triangle meshes only");
+                                    " is no triangle: boundaries are smoothed from tile to tile on triangles only");
     }
   }
 
@@ -269,7 +269,7 @@ class Tile_steps {
 
   /// The walls that a file names for a tile.
   Wall_map named_walls(std::size_t tile, const mesh_files::Polygon_soup& soup, Mesh& mesh) const {
-    Wall_map walls = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_wall", false).first;
+    Wall_map walls = wall_map(mesh);
     const std::string& path = tasks_[tile].files.constraints;
     if (!path.empty()) mark_constraints(soup.points, read_constraints(path), mesh, walls);
     return walls;
