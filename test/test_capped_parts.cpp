@@ -255,6 +255,28 @@ TEST_F(Capped_parts, WhoseCutCrossesItselfWhenSeenFromItsPlaneAreSolids) {
                 volume_of(mesh_files::read_mesh(path("again.off"))));
 }
 
+TEST_F(Capped_parts, WhoseCutGoesStraightUpFromItsPlaneAreSolids) {
+  // Each long side of the cut has a step up and one down, on edges that stand upright on the plane of the whole.
+  Tower tower = {
+      {{{0, 0}, {1, 0}, {1.25, 0}, {1.75, 0}, {2, 0}, {3, 0}, {3, 2}, {2, 2}, {1.75, 2}, {1.25, 2}, {1, 2}, {0, 2}}},
+      {}};
+  for (int i = 0; i < 5; ++i) {
+    tower.floor.push_back({11, i, i + 1});
+    tower.floor.push_back({5, i + 6, i + 7});
+  }
+  write("walls.txt", tower.walls(2));
+  std::string mesh = tower.off();
+  for (const auto& [before, after] : {std::pair("1.25 0 2\n", "1 0 2.5\n"),
+                                      {"1.75 0 2\n", "2 0 2.5\n"},
+                                      {"1.75 2 2\n", "2 2 2.5\n"},
+                                      {"1.25 2 2\n", "1 2 2.5\n"}}) {
+    const std::size_t place = mesh.find(before);
+    ASSERT_NE(place, std::string::npos);
+    mesh.replace(place, std::string(before).size(), after);
+  }
+  expect_solids(parts(mesh, {"--constraints", "walls.txt", "--segments", "2"}), 24);
+}
+
 TEST_F(Capped_parts, OfACubesSidesAreClosedAndFlatWhichIsSaid) {
   const auto found = parts(cube_of_separate_squares(3), six_sides);
   ASSERT_EQ(found.size(), 6U);

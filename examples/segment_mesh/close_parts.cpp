@@ -185,34 +185,35 @@ class Cap_builder {
   using Triangulation =
       CGAL::Constrained_Delaunay_triangulation_2<Exact, Structure, CGAL::No_constraint_intersection_tag>;
 
-  /// Those of the constrained Delaunay triangulation that lie between the loops; none if the loops cross each other in the
-  /// plane of the outer one.
+  /// Those of the constrained Delaunay triangulation that lie between the loops; none if the loops cross or touch each other
+  /// or themselves in the plane of the outer one.
   std::vector<Triangle> flat_cap(const std::vector<Index>& outer, const std::vector<std::vector<Index>>& holes) const {
     const Frame frame = frame_of(outer);
     if (frame.axes[2] == CGAL::NULL_VECTOR) return {};
     Triangulation plane;
     std::size_t corners = 0;
+    std::vector<std::vector<Triangulation::Vertex_handle>> loops;
+    const auto insert = [&](const std::vector<Index>& loop) {
+      auto& vertices = loops.emplace_back();
+      for (const Index corner : loop) {
+        vertices.push_back(plane.insert(frame.flat(points_[corner])));
+        vertices.back()->info() = corner;
+      }
+      corners += loop.size();
+    };
+    insert(outer);
+    for (const auto& hole : holes) insert(hole);
+    if (plane.number_of_vertices() != corners) return {};  // some fell onto each other
     try {
-      const auto insert = [&](const std::vector<Index>& loop) {
-        std::vector<Triangulation::Vertex_handle> vertices;
-        for (const Index corner : loop) {
-          vertices.push_back(plane.insert(frame.flat(points_[corner])));
-          vertices.back()->info() = corner;
-        }
+      for (const auto& vertices : loops)
         for (std::size_t i = 0; i < vertices.size(); ++i)
           plane.insert_constraint(vertices[i], vertices[(i + 1) % vertices.size()]);
-        corners += loop.size();
-      };
-      insert(outer);
-      for (const auto& hole : holes) insert(hole);
     } catch (const Triangulation::Intersection_of_constraints_exception&) {
       return {};
     }
     std::vector<Triangle> inside = inside_of(plane);
-    // Each hole adds two triangles. Another number of them means that corners fell onto each other or onto edges.
-    return plane.number_of_vertices() == corners && inside.size() + 2 == corners + 2 * holes.size()
-               ? inside
-               : std::vector<Triangle>();
+    // Each hole adds two triangles. Another number of them means that corners fell onto edges.
+    return inside.size() + 2 == corners + 2 * holes.size() ? inside : std::vector<Triangle>();
   }
 
   /// The triangles that a path from outside reaches over an odd number of constraints.
