@@ -477,7 +477,7 @@ TEST_F(Segment_mesh_tool, PolygonsAreCutIntoTrianglesForBoundariesAlone) {
   const auto before = labels("whole.seg"), after = labels("r.seg");
   ASSERT_EQ(after.size(), refined.number_of_faces());
   EXPECT_EQ(number_of_lines(content_of(path("r.txt"))), after.size() + 1);
-  for (const std::size_t f : {12, 13}) EXPECT_EQ(after[f], before[f]) << "the first faces are those of the file";
+  for (const std::size_t f : {12U, 13U}) EXPECT_EQ(after[f], before[f]) << "the first faces are those of the file";
 
   // Without --refine the mesh keeps its faces.
   ASSERT_EQ(run(seeds + std::vector<std::string>{"--output", "whole.off"}).exit_code, 0);
