@@ -32,9 +32,8 @@ Boundary_curves boundary_curves_of_tile(const Mesh& mesh, const Wall_map& walls,
                                         const std::vector<RW_segmentation::Tile_crossing>& crossings,
                                         const std::function<bool(double)>& callback);
 
-/// Cuts the polygons of a mesh into triangles, on which boundaries can be smoothed; new faces follow the old ones.
-/// \returns how many there were
-std::size_t cut_polygons(Mesh& mesh, Segmentation& result);
+/// Gives the new faces of a mesh what is known of those that they were part of.
+void inherit(Segmentation& result, const std::vector<Mesh::Face_index>& parent_of_new);
 
 /// Cuts the curves into the mesh; new faces follow the old ones.
 void cut_boundaries(Mesh& mesh, const Boundary_curves& curves, Segmentation& result);

@@ -10,10 +10,12 @@
 #include "Output_files.h"
 #include "Segmentation.h"
 #include "Stages.h"
+#include "cut_polygons.h"
 #include "walls.h"
 
 #include <CGAL/boost/graph/helpers.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -51,15 +53,15 @@ inline std::size_t treat_boundaries(const Options& options, mesh_files::Polygon_
   };
   if (!options.is_refined && !CGAL::is_triangle_mesh(input.mesh)) {
     Mesh triangles = input.mesh;
-    Segmentation of_triangles;
-    of_triangles.label = result.label;
-    cut_polygons(triangles, of_triangles);
-    files.write_boundaries(curves_on(triangles, wall_map(triangles), of_triangles.label));
+    std::vector<std::size_t> label = result.label;
+    inherit(label, cut_polygons(triangles));
+    files.write_boundaries(curves_on(triangles, wall_map(triangles), label));
     return 0;
   }
-  const std::size_t polygons = cut_polygons(input.mesh, result);
+  std::vector<Mesh::Face_index> polygons = cut_polygons(input.mesh);
+  inherit(result, polygons);
   use_boundaries(options, curves_on(input.mesh, walls, result.label), soup, input, result, files);
-  return polygons;
+  return std::size_t(std::unique(polygons.begin(), polygons.end()) - polygons.begin());
 }
 
 }  // namespace segment_mesh

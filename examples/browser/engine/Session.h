@@ -5,9 +5,11 @@
 
 #include "../../mesh_files/Output.h"
 #include "../../mesh_files/Polygon_soup.h"
+#include "../../mesh_files/Segmented_soup.h"
 #include "../../mesh_files/write_mesh.h"
 #include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
+#include "../../segment_mesh/cut_polygons.h"
 #include "../../segment_mesh/surfaces.h"
 #include "../../segment_mesh/walls.h"
 
@@ -43,7 +45,7 @@ using segment_mesh::Point;
 using Label = std::uint32_t;
 using Progress_callback = std::function<bool(double)>;
 
-/// A mesh as it is drawn. Polygons are cut into fans.
+/// A mesh as it is drawn. Polygons are cut into triangles, those of each one after the other.
 struct Drawn_mesh {
   std::vector<float> positions;                 ///< three of each vertex, from a corner of the mesh
   std::vector<std::uint32_t> triangles;         ///< three vertices each
@@ -98,13 +100,16 @@ class Session {
   Drawn_mesh drawn_mesh() const {
     Drawn_mesh drawn;
     for (const auto v : mesh().vertices()) draw(mesh().point(v), drawn.positions);
+    const std::vector<Point> points(mesh().points().begin(), mesh().points().end());
+    mesh_files::Ear_clipping triangles_of(points);
+    std::vector<std::uint32_t> polygon;
     for (const auto f : mesh().faces()) {
-      const auto first = mesh().halfedge(f);
-      for (auto h = mesh().next(first); mesh().next(h) != first; h = mesh().next(h)) {
-        for (const auto corner : {mesh().target(first), mesh().target(h), mesh().target(mesh().next(h))})
-          drawn.triangles.push_back(corner);
+      polygon.clear();
+      for (const auto v : mesh().vertices_around_face(mesh().halfedge(f))) polygon.push_back(v);
+      triangles_of(polygon, [&](auto... corners) {
+        for (const auto corner : {corners...}) drawn.triangles.push_back(corner);
         drawn.face_of_triangle.push_back(f);
-      }
+      });
       drawn.face_areas.push_back(segment_mesh::face_area(mesh(), f, 1));
     }
     return drawn;
@@ -200,11 +205,14 @@ class Session {
             {"regular", segment_mesh::snaps_of(result.snaps)}};
   }
 
-  /// The smooth boundaries between segments.
+  /// The smooth boundaries between segments, on the triangles that are drawn.
   Polylines smooth_boundaries(std::vector<Label> labels) const {
     if (labels.size() != mesh().number_of_faces()) throw std::invalid_argument("a label for each face is needed");
-    const auto curves = RW_segmentation::smooth_boundaries(mesh(), face_map(mesh(), labels),
-                                                           CGAL::parameters::edge_is_constrained_map(walls_));
+    Mesh triangles = mesh();
+    segment_mesh::inherit(labels, segment_mesh::cut_polygons(triangles));
+    const auto walls = segment_mesh::wall_map(triangles);
+    const auto curves = RW_segmentation::smooth_boundaries(triangles, face_map(triangles, labels),
+                                                           CGAL::parameters::edge_is_constrained_map(walls));
     Polylines lines;
     for (const auto& curve : curves) {
       for (const auto& curve_point : curve.points) draw(curve_point.point, lines.points);

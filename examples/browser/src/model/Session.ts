@@ -55,12 +55,6 @@ export class Session {
   /** The edges that are walls, a curve each. */
   readonly wallEdges = signal<Curves | null>(null);
 
-  /** Whether boundaries can be smoothed: they run across triangles. */
-  readonly canSmooth = computed(() => {
-    const mesh = this.mesh.value;
-    return !mesh || mesh.faceOfTriangle.length === mesh.faces;
-  });
-
   /** The segment of each face, null before there are segments. */
   readonly segmentOfFace = computed(() =>
     this.mode.value === 'seeds'
@@ -96,8 +90,7 @@ export class Session {
     effect(() => {
       this.curves.value = null;
       this.walls.value;
-      const isWanted = this.appearance.boundaries.value && this.canSmooth.value;
-      if (isWanted && this.segmentOfFace.value) void this.findCurves();
+      if (this.appearance.boundaries.value && this.segmentOfFace.value) void this.findCurves();
     });
     effect(() => {
       // Labels of one mode mean nothing in the other, where what is found in the background hides and shows nothing.

@@ -23,11 +23,7 @@ export function toolsPanel(session: Session, stage: Stage, pointerTools: Pointer
   onClick('up', () => stage.turnUp());
   onClick('boundaries', () => toggleBoundaries(session));
   effect(() => {
-    const button = byId<HTMLButtonElement>('boundaries');
-    const isPossible = session.canSmooth.value;
-    button.disabled = !isPossible;
-    button.ariaPressed = String(isPossible && session.appearance.boundaries.value);
-    button.title = isPossible ? 'Smooth boundaries (B)' : 'Only boundaries on triangle meshes can be smoothed';
+    byId('boundaries').ariaPressed = String(session.appearance.boundaries.value);
   });
 }
 

@@ -65,7 +65,7 @@ export type FileFormat =
 export interface MeshData {
   /** Three coordinates a vertex, from a corner of the mesh. */
   positions: Float32Array;
-  /** Three vertices a triangle; polygons are cut into fans. */
+  /** Three vertices a triangle; the triangles of a polygon follow each other. */
   triangles: Uint32Array;
   faceOfTriangle: Uint32Array;
   faces: number;

@@ -208,14 +208,14 @@ test('segments are hidden, shown alone, and moved apart', async ({ segmentation 
   expect([await segmentation.placeOf(right), await segmentation.placeOf(front)]).toEqual(before);
 });
 
-test('smooth boundaries are drawn between segments of triangles, and are offered for no others', async ({
-  segmentation,
-}) => {
+test('smooth boundaries are drawn between segments, of polygons as of triangles', async ({ segmentation }) => {
   const { page } = segmentation;
   const curves = () => page.evaluate(() => window.segmentationPage.curves());
   await segmentation.openMesh('cube.off', mesh);
-  await expect(page.locator('#boundaries')).toBeDisabled();
+  await segmentation.seed(right, front);
+  await expect.poll(curves).toBeGreaterThan(0);
   await segmentation.openMesh('triangles.off', triangulated(mesh));
+  await expect.poll(curves).toBe(0);
   const labels = await segmentation.seed(2 * right, 2 * front);
   await expect.poll(curves).toBeGreaterThan(0);
   await page.keyboard.press('b');
