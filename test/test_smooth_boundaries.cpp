@@ -8,11 +8,16 @@
 #include "boundaries.h"
 #include "meshes.h"
 
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/iterator.h>
+
 #include <boost/property_map/function_property_map.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -547,6 +552,26 @@ TEST(SmoothBoundaries, BoundaryOfASingleEdgeStays) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_FALSE(curves[0].is_smoothed);
   EXPECT_EQ(curves[0].points.size(), 2u);
+}
+
+TEST(SmoothBoundaries, RunAlongTheRightOneOfTwoEdgesBetweenTheSameVertices) {
+  // Two squares that share two edges, and two triangles. Vertex 0, between the shared edges, is cut off from both squares.
+  const Shape shape = {{{1, -0.3, -0.3}, {2, 0, 0}, {1, 2, 0}, {0, 0, 0}, {1, 0, 2}},
+                       {{0, 1, 2, 3}, {0, 3, 4, 1}, {3, 2, 4}, {2, 1, 4}}};
+  Surface_mesh mesh = meshes::surface_mesh(shape);
+  const Surface_mesh::Vertex_index apex(0);
+  const auto into_apex = CGAL::halfedges_around_target(apex, mesh);
+  for (const auto h : std::vector(into_apex.begin(), into_apex.end()))
+    CGAL::Euler::split_face(mesh.prev(h), mesh.next(h), mesh);
+  const auto ears = CGAL::faces_around_target(mesh.halfedge(apex), mesh);
+  for (const std::size_t number : {1U, 2U}) {
+    Labels labels(mesh.number_of_faces(), 0);
+    for (std::size_t i = 0; i < number; ++i) labels[*std::next(ears.begin(), static_cast<std::ptrdiff_t>(i))] = 1;
+    const auto curves = curves_of(mesh, labels);
+    ASSERT_EQ(curves.size(), 1U);
+    EXPECT_TRUE(curves[0].is_closed);
+    EXPECT_EQ(curves[0].points.size(), 4 - number) << "the two ends, and the vertex between them if one ear is left";
+  }
 }
 
 TEST(SmoothBoundaries, SegmentsOfSingleFacesSurvive) {

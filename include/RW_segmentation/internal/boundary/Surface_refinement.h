@@ -57,7 +57,7 @@ class Surface_refinement {
                      const std::vector<std::size_t>& segment_of_face, double least_height)
       : surface_(surface), curves_(curves), is_faulty_(curves.size(), false) {
     cut_edges();
-    find_lines();
+    find_lines(segment_of_face);
     if (has_faults()) return;
     divide_faces(least_height);
     if (has_faults()) return;
@@ -137,12 +137,12 @@ class Surface_refinement {
   // ---- Lines ----
 
   /// Tells lines along edges of the surface from those across faces.
-  void find_lines() {
+  void find_lines(const std::vector<std::size_t>& segment_of_face) {
     for (std::size_t c = 0; c < curves_.size(); ++c)
       for (std::size_t i = 0; i < curves_[c].number_of_lines(); ++i) {
         const Curve_node &from = curves_[c].nodes[i], &to = curves_[c].end_of_line(i);
-        const bool is_found =
-            from.is_vertex() && to.is_vertex() ? add_edge(from.vertex, to.vertex, c) : add_line(from, to, c);
+        const bool is_found = from.is_vertex() && to.is_vertex() ? add_edge(from.vertex, to.vertex, c, segment_of_face)
+                                                                 : add_line(from, to, c);
         if (!is_found) blame(c);
       }
     std::vector<Index> edges;
@@ -160,18 +160,24 @@ class Surface_refinement {
     whole_edges_ = std::move(edges);
   }
 
-  /// A line along an edge between two faces.
-  bool add_edge(Index from, Index to, std::size_t curve) {
-    return surface_.any_leaving(from, [&](Index h) {
+  /// A line along an edge between two faces: of several between the same vertices, one with the segments of the curve beside
+  /// it.
+  bool add_edge(Index from, Index to, std::size_t curve, const std::vector<std::size_t>& segment_of_face) {
+    Index found = Triangle_surface::none;
+    const auto segment_beside = [&](Index h) { return segment_of_face[Triangle_surface::face(h)]; };
+    surface_.any_leaving(from, [&](Index h) {
+      const Index previous = Triangle_surface::previous(h);
       if (surface_.target(h) == to && !surface_.is_border(h))
-        edge_lines_.emplace_back(h, curve);
-      else if (surface_.source(Triangle_surface::previous(h)) == to &&
-               !surface_.is_border(Triangle_surface::previous(h)))
-        edge_lines_.emplace_back(surface_.twin(Triangle_surface::previous(h)), curve);
+        found = h;
+      else if (surface_.source(previous) == to && !surface_.is_border(previous))
+        found = surface_.twin(previous);
       else
         return false;
-      return true;
+      return std::array{segment_beside(found), segment_beside(surface_.twin(found))} == curves_[curve].segments;
     });
+    if (found == Triangle_surface::none) return false;
+    edge_lines_.emplace_back(found, curve);
+    return true;
   }
 
   /// A line across the face that both nodes lie on.
