@@ -491,6 +491,21 @@ TEST_F(Segment_mesh_tool, PolygonsAreCutIntoTrianglesForBoundariesAlone) {
   }
 }
 
+TEST_F(Segment_mesh_tool, PolygonsThatShareTwoEdgesAreCutWithoutASideInCommon) {
+  // Both squares are convex where they bend around the vertex that they begin with.
+  write("bent.off",
+        "OFF\n5 4 0\n1 -0.3 -0.3\n2 0 0\n1 2 0\n0 0 0\n1 0 2\n"
+        "4 0 1 2 3\n4 0 3 4 1\n3 3 2 4\n3 2 1 4\n");
+  const Result result = run({"bent.off", "--seed", "0", "--seed", "2", "--refine", "--output", "r.off"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto refined = mesh_files::read_mesh(path("r.off"));
+  std::set<std::pair<std::size_t, std::size_t>> sides;
+  for (std::size_t f = 0; f < refined.number_of_faces(); ++f) {
+    const auto face = refined.face(f);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(sides.insert({face[i], face[(i + 1) % 3]}).second);
+  }
+}
+
 TEST_F(Segment_mesh_tool, SeedsOfTheUserJoinTheAutomaticOnes) {
   write("tower.off", tower(2));
   ASSERT_EQ(

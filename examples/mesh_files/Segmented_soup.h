@@ -46,11 +46,20 @@ class Ear_clipping {
   /// Calls `triangle(a, b, c)` for each triangle; a polygon of fewer than three corners has none.
   template <class Face, class Function>
   void operator()(const Face& face, const Function& triangle) {
+    (*this)(face, triangle, [](Index, Index) { return true; });
+  }
+
+  /// The same without sides between corners that may not be joined, as far as there are other ways.
+  template <class Face, class Function, class Predicate>
+  void operator()(const Face& face, const Function& triangle, const Predicate& may_join) {
     constexpr std::size_t most_corners = 10000;
     begin(face);
+    const auto may_cut = [&](std::size_t i) { return may_join(corners_[before_[i]], corners_[next_[i]]); };
     std::size_t left = corners_.size(), here = 0, passed = left > most_corners ? left : 0;
     for (; left > 3; --left) {
-      for (; passed < left && !is_ear(here); ++passed) here = next_[here];
+      for (; passed < left && !(is_ear(here) && may_cut(here)); ++passed) here = next_[here];
+      if (passed == left)
+        for (std::size_t tried = 0; tried < left && !may_cut(here); ++tried) here = next_[here];
       const std::size_t before = before_[here], after = next_[here];
       triangle(corners_[before], corners_[here], corners_[after]);
       next_[before] = after;

@@ -17,6 +17,7 @@ namespace segment_mesh {
 /// Cuts the polygons of a mesh into triangles; new faces follow the old ones.
 /// \returns the face that each new one was part of
 inline std::vector<Mesh::Face_index> cut_polygons(Mesh& mesh) {
+  using Vertex = Mesh::Vertex_index;
   std::vector<Mesh::Face_index> polygons, parent_of_new;
   for (const auto f : mesh.faces())
     if (mesh.degree(f) > 3) polygons.push_back(f);
@@ -29,16 +30,19 @@ inline std::vector<Mesh::Face_index> cut_polygons(Mesh& mesh) {
     corners.clear();
     for (const auto v : mesh.vertices_around_face(left)) corners.push_back(v);
     std::size_t corners_left = corners.size();
-    cut_ears(corners, [&](auto before, auto tip, auto after) {
+    const auto cut_off = [&](auto before, auto tip, auto after) {
       if (corners_left-- == 3) return;
       const auto goes_around_ear = [&] {
-        return mesh.source(left) == Mesh::Vertex_index(before) && mesh.target(left) == Mesh::Vertex_index(tip) &&
-               mesh.target(mesh.next(left)) == Mesh::Vertex_index(after);
+        return mesh.source(left) == Vertex(before) && mesh.target(left) == Vertex(tip) &&
+               mesh.target(mesh.next(left)) == Vertex(after);
       };
       while (!goes_around_ear()) left = mesh.next(left);
       left = CGAL::Euler::split_face(mesh.prev(left), mesh.next(left), mesh);
       parent_of_new.push_back(f);
-    });
+    };
+    // Boundaries cannot be followed along two edges between the same vertices.
+    const auto are_apart = [&](auto v, auto w) { return !CGAL::halfedge(Vertex(v), Vertex(w), mesh).second; };
+    cut_ears(corners, cut_off, are_apart);
   }
   return parent_of_new;
 }

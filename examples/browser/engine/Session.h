@@ -5,7 +5,6 @@
 
 #include "../../mesh_files/Output.h"
 #include "../../mesh_files/Polygon_soup.h"
-#include "../../mesh_files/Segmented_soup.h"
 #include "../../mesh_files/write_mesh.h"
 #include "../../segment_mesh/Method.h"
 #include "../../segment_mesh/Oriented_mesh.h"
@@ -100,16 +99,18 @@ class Session {
   Drawn_mesh drawn_mesh() const {
     Drawn_mesh drawn;
     for (const auto v : mesh().vertices()) draw(mesh().point(v), drawn.positions);
-    const std::vector<Point> points(mesh().points().begin(), mesh().points().end());
-    mesh_files::Ear_clipping triangles_of(points);
-    std::vector<std::uint32_t> polygon;
+    Mesh triangles = mesh();
+    const std::vector<Mesh::Face_index> parent_of_new = segment_mesh::cut_polygons(triangles);
+    const auto draw_triangle = [&](std::size_t triangle, Mesh::Face_index f) {
+      const auto first = triangles.halfedge(Mesh::Face_index(static_cast<Mesh::size_type>(triangle)));
+      for (const auto v : triangles.vertices_around_face(first)) drawn.triangles.push_back(v);
+      drawn.face_of_triangle.push_back(f);
+    };
+    std::size_t next = 0;
     for (const auto f : mesh().faces()) {
-      polygon.clear();
-      for (const auto v : mesh().vertices_around_face(mesh().halfedge(f))) polygon.push_back(v);
-      triangles_of(polygon, [&](auto... corners) {
-        for (const auto corner : {corners...}) drawn.triangles.push_back(corner);
-        drawn.face_of_triangle.push_back(f);
-      });
+      draw_triangle(f, f);
+      for (; next < parent_of_new.size() && parent_of_new[next] == f; ++next)
+        draw_triangle(mesh().number_of_faces() + next, f);
       drawn.face_areas.push_back(segment_mesh::face_area(mesh(), f, 1));
     }
     return drawn;
