@@ -491,6 +491,24 @@ TEST_F(Segment_mesh_tool, PolygonsAreCutIntoTrianglesForBoundariesAlone) {
   }
 }
 
+TEST_F(Segment_mesh_tool, BoundariesOfPolygonsStayOnWalls) {
+  write("grid.off", grid(4));
+  write("stairs.txt", "1 6\n6 7\n7 12\n12 13\n13 18\n18 19\n");
+  const std::vector<std::string> task = {"grid.off", "--seed", "0", "--seed", "3", "--constraints", "stairs.txt"};
+  for (const std::vector<std::string>& smooth : {std::vector<std::string>{}, {"--smooth"}, {"--refine"}}) {
+    ASSERT_EQ(run(task + smooth + std::vector<std::string>{"--boundaries", "b.obj"}).exit_code, 0);
+    std::istringstream lines(content_of(path("b.obj")));
+    std::size_t points = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line[0] != 'v') continue;
+      ++points;
+      std::istringstream coordinates(line.substr(1));
+      for (double x; coordinates >> x;) EXPECT_EQ(x, std::round(x)) << "no corner of the stairs: " << line;
+    }
+    EXPECT_EQ(points, 7U);
+  }
+}
+
 TEST_F(Segment_mesh_tool, PolygonsThatShareTwoEdgesAreCutWithoutASideInCommon) {
   // Both squares are convex where they bend around the vertex that they begin with.
   write("bent.off",

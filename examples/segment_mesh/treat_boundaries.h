@@ -15,8 +15,8 @@
 
 #include <CGAL/boost/graph/helpers.h>
 
-#include <algorithm>
 #include <cstddef>
+#include <set>
 #include <vector>
 
 namespace segment_mesh {
@@ -58,10 +58,10 @@ inline std::size_t treat_boundaries(const Options& options, mesh_files::Polygon_
     files.write_boundaries(curves_on(triangles, wall_map(triangles), label));
     return 0;
   }
-  std::vector<Mesh::Face_index> polygons = cut_polygons(input.mesh);
-  inherit(result, polygons);
+  const std::vector<Mesh::Face_index> parent_of_new = cut_polygons(input.mesh);
+  inherit(result, parent_of_new);
   use_boundaries(options, curves_on(input.mesh, walls, result.label), soup, input, result, files);
-  return std::size_t(std::unique(polygons.begin(), polygons.end()) - polygons.begin());
+  return std::set(parent_of_new.begin(), parent_of_new.end()).size();
 }
 
 }  // namespace segment_mesh
